@@ -82,30 +82,32 @@ impl Entry {
 }
 
 impl Book {
-    /// Opens the book of a course, or of one person in it.
+    /// Opens the book of a course; `person` and `lesson` name the part of it that is read, for what is handed in grows.
     ///
     /// Errors if the gradebook cannot be read.
-    pub async fn open(store: &Store, course: &str, person: Option<&str>) -> Result<Self, Problem> {
+    pub async fn open(
+        store: &Store,
+        course: &str,
+        person: Option<&str>,
+        lesson: Option<&str>,
+    ) -> Result<Self, Problem> {
         let mut book = Self::default();
         for assignment in store.assignments(course).await? {
             book.assignments.insert(assignment.lesson.clone(), assignment);
         }
-        for row in store.handed(course, person, None).await? {
+        for row in store.handed(course, person, lesson).await? {
             book.entry(row.person, row.lesson).handed.push(row.handed);
         }
-        for one in store.predictions(course, person, None).await? {
+        for one in store.predictions(course, person, lesson).await? {
             if one.choice.is_some() {
                 book.entry(one.person, one.lesson).predicted.push(one.prediction);
             }
         }
-        let is_wanted = |other: &str| person.is_none_or(|person| person == other);
-        for one in store.decisions(course).await?.into_iter().filter(|one| is_wanted(&one.person)) {
+        for one in store.decisions(course, person, lesson).await? {
             book.entry(one.person.clone(), one.lesson.clone()).take(one);
         }
-        for (who, lesson, extension) in store.extensions(course).await? {
-            if is_wanted(&who) {
-                book.entry(who, lesson).extension = Some(extension);
-            }
+        for (who, lesson, extension) in store.extensions(course, person, lesson).await? {
+            book.entry(who, lesson).extension = Some(extension);
         }
         Ok(book)
     }
@@ -122,11 +124,6 @@ impl Book {
     /// What is kept about a person's work in a lesson.
     pub fn of(&self, person: &str, lesson: &str) -> Option<&Entry> {
         self.entries.get(person)?.get(lesson)
-    }
-
-    /// Everybody's work in a lesson, in no order.
-    pub fn in_lesson<'a>(&'a self, lesson: &'a str) -> impl Iterator<Item = (&'a str, &'a Entry)> {
-        self.entries.iter().filter_map(move |(person, of)| Some((person.as_str(), of.get(lesson)?)))
     }
 
     /// Points for having predicted what a run would show. They count besides what the exercise earns, and pass nothing.

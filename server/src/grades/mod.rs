@@ -88,7 +88,7 @@ pub struct Reached {
 /// Errors if the gradebook cannot be read.
 pub async fn table(store: &Store, id: &str, course: &Course, now: Moment) -> Result<GradeTable, Problem> {
     let people = store.people(id).await?;
-    let book = Book::open(store, id, None).await?;
+    let book = Book::open(store, id, None, None).await?;
     let lessons = course.lessons().iter().map(|lesson| GradedLesson {
         slug: lesson.slug.clone(),
         number: lesson.number,

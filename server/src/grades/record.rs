@@ -118,7 +118,7 @@ pub async fn record(
     all: bool,
     now: Moment,
 ) -> Result<Record, Problem> {
-    let book = Book::open(store, id, Some(&person.id)).await?;
+    let book = Book::open(store, id, Some(&person.id), None).await?;
     let regrades = store.regrades(id).await?;
     let regraded = store.regraded(id, Some(&person.id)).await?;
     let is_touched = |lesson: &&Lesson| {

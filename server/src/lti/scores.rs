@@ -63,13 +63,7 @@ impl Score {
 struct Unread(HashMap<String, HashSet<String>>);
 
 impl Unread {
-    /// Those of a lesson; `everybody` is the class's book where it was read already.
-    async fn of(
-        &mut self,
-        store: &Store,
-        lesson: &Lesson,
-        everybody: Option<&Book>,
-    ) -> Result<&HashSet<String>, Problem> {
+    async fn of(&mut self, store: &Store, lesson: &Lesson) -> Result<&HashSet<String>, Problem> {
         let place = match self.0.entry(lesson.slug.clone()) {
             Entry::Occupied(place) => return Ok(place.into_mut()),
             Entry::Vacant(place) => place,
@@ -77,10 +71,7 @@ impl Unread {
         let mut found = HashSet::new();
         if lesson.exercise.questions.iter().any(Question::is_judged_by_people) {
             let class = Class::open(store, CLASS, &lesson.slug).await?;
-            found = match everybody {
-                Some(book) => waiting(lesson, &class, book),
-                None => waiting(lesson, &class, &Book::open(store, CLASS, None).await?),
-            };
+            found = waiting(lesson, &class, &Book::open(store, CLASS, None, Some(&lesson.slug)).await?);
         }
         Ok(place.insert(found))
     }
@@ -120,10 +111,10 @@ pub async fn plan(store: &Store, course: &Course, now: Moment) -> Result<(), Pro
             };
             let people = store.people_of_context(CLASS, &platform.id, &column.context).await?;
             if book.is_none() {
-                book = Some(Book::open(store, CLASS, None).await?);
+                book = Some(Book::open(store, CLASS, None, None).await?);
             }
             let Some(book) = &book else { continue };
-            let unread = unread.of(store, lesson, Some(book)).await?;
+            let unread = unread.of(store, lesson).await?;
             wanted.extend(people.into_iter().filter_map(|(_, person)| {
                 let state = score(book, unread, &person, lesson, now)?.state();
                 Some(Wanted { column: column.clone(), person, state })
@@ -250,10 +241,10 @@ impl Post<'_> {
     /// Tells the platform a score as it is now, not as it was when it was found to be due.
     async fn tell(&self, due: &Due, unread: &mut Unread) -> Result<(Told, Option<Refused>), Problem> {
         let subject = self.store.subject_of(&self.platform.id, &due.column.context, &due.person).await?;
-        let book = Book::open(self.store, CLASS, Some(&due.person)).await?;
+        let book = Book::open(self.store, CLASS, Some(&due.person), Some(&due.column.lesson)).await?;
         let score = match self.course.lesson(&due.column.lesson) {
             Some(lesson) => {
-                let unread = unread.of(self.store, lesson, None).await?;
+                let unread = unread.of(self.store, lesson).await?;
                 score(&book, unread, &due.person, lesson, (self.clock)())
             }
             None => None,

@@ -136,7 +136,7 @@ pub async fn preview(
     progress: Arc<Progress>,
 ) -> Result<Computed, Problem> {
     let started = Instant::now();
-    let book = Book::open(store, course, None).await?;
+    let book = Book::open(store, course, None, Some(&lesson.slug)).await?;
     let assignment = book.assignment(&lesson.slug).cloned().unwrap_or_else(|| Assignment::of(&lesson.slug));
     let new = assigned(lesson, &assignment.policy);
     let records = store.recorded(course, Some(&lesson.slug)).await?;

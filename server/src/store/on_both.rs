@@ -5,10 +5,11 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use sqlx::Executor;
+use sqlx::{AssertSqlSafe, Executor, Row};
 use triad_tests::postgres::{self, Postgres};
 
 use super::copies::tests::{all as listed, exported, new as with_work, whole};
+use super::kind::Kind;
 use super::tests::{hand_in, ids, new, six_share};
 use super::*;
 use crate::policy::{Extension, Moment, Policy, Refusal};
@@ -29,6 +30,37 @@ async fn at(address: &str) -> Store {
 fn everything_here_holds_on_postgresql_too() {
     let Some(server) = Postgres::start("the gradebook on PostgreSQL") else { return };
     server.again(&["store::on_both"], &["everything_here_holds_on_postgresql_too"]);
+}
+
+/// Whoever asks for one person's work reads the rows of that person, however many others there are.
+#[tokio::test]
+async fn one_persons_work_is_found_by_the_person() {
+    let store = fresh().await;
+    let of_person =
+        [sql::HANDED_OF, sql::SUBMISSIONS_OF, sql::PREDICTIONS_OF, sql::ATTEMPTS, sql::LAST_SUBMISSION];
+    for statement in of_person {
+        let mut reading = store.pools.readers.begin().await.expect("begins");
+        let (explain, place, by_person, by_reading_all) = match Kind::of(&reading) {
+            Kind::Sqlite => ("EXPLAIN QUERY PLAN", "detail", "person=?", "SCAN"),
+            Kind::Postgres => {
+                // Of tables as small as these the whole is read first, if it may be.
+                reading.execute("SET LOCAL enable_seqscan = off").await.expect("sets");
+                ("EXPLAIN", "QUERY PLAN", "person = ", "Seq Scan on submission")
+            }
+        };
+        let explained = format!("{explain} {statement}");
+        let mut plan = sqlx::query(AssertSqlSafe(explained));
+        for place in ["$1", "$2", "$3"].into_iter().filter(|place| statement.contains(place)) {
+            plan = plan.bind(place);
+        }
+        if statement.contains("$4") {
+            plan = plan.bind(1_i64);
+        }
+        let lines = plan.fetch_all(&mut *reading).await.expect("plans");
+        let lines: Vec<String> = lines.iter().map(|line| line.get(place)).collect();
+        assert!(lines.iter().any(|line| line.contains(by_person)), "{statement}: {lines:#?}");
+        assert!(!lines.iter().any(|line| line.contains(by_reading_all)), "{statement}: {lines:#?}");
+    }
 }
 
 /// Several programs make the tables at once; one of a later version is refused.
@@ -144,7 +176,10 @@ async fn a_course_moves_between_databases_and_back() {
         file.people(HOME).await.expect("reads"),
         "in one order"
     );
-    assert_eq!(other.decisions(HOME).await.expect("reads"), file.decisions(HOME).await.expect("reads"));
+    assert_eq!(
+        other.decisions(HOME, None, None).await.expect("reads"),
+        file.decisions(HOME, None, None).await.expect("reads")
+    );
     other.hand_in(&with_work("Fifth", 0)).await.expect("goes on");
     exported(&other, &second).await;
 
@@ -179,12 +214,12 @@ async fn what_may_be_missing_is_kept_in_any_order() {
         let said = Said::points(given, "looked at once more");
         store.decide(HOME, &person, &person, "pendulum", said).await.expect("decides");
     }
-    let kept = store.decisions(HOME).await.expect("reads");
+    let kept = store.decisions(HOME, None, None).await.expect("reads");
     assert_eq!(kept.iter().map(|one| one.points).collect::<Vec<_>>(), points);
     for until in [None, Some(Moment(5)), None] {
         let more = Extension { until, attempts: 1, reason: "ill".into(), by: String::new(), at: Moment(0) };
         store.extend(HOME, &person, &person, "pendulum", Some(&more)).await.expect("extends");
-        let kept = store.extensions(HOME).await.expect("reads");
+        let kept = store.extensions(HOME, None, None).await.expect("reads");
         assert_eq!(kept.iter().map(|(_, _, one)| one.until).collect::<Vec<_>>(), [until]);
     }
 }

@@ -76,7 +76,8 @@ impl Store {
         person: Option<&str>,
         lesson: Option<&str>,
     ) -> Result<Vec<KeptPrediction>, StoreError> {
-        let list = sqlx::query_as(sql::PREDICTIONS).bind(course).bind(person).bind(lesson);
+        let statement = person.map_or(sql::PREDICTIONS, |_| sql::PREDICTIONS_OF);
+        let list = sqlx::query_as(statement).bind(course).bind(person).bind(lesson);
         let rows: Vec<Row> = list.fetch_all(&self.pools.readers).await?;
         let kept = |(person, name, lesson, prediction, choice, why, given_at)| KeptPrediction {
             person,

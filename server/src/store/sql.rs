@@ -101,6 +101,9 @@ pub(super) const ADDED_8: &[&str] = &[
 /// What format 9 adds: the question that a decision is about, where it is not about a whole lesson.
 pub(super) const ADDED_9: &[&str] = &["ALTER TABLE decision ADD COLUMN question TEXT"];
 
+#[macro_use]
+mod of_person;
+
 /// What is a record is added to and never changed. In SQLite's words: `database.rs` says them in PostgreSQL's.
 pub(super) const RECORDS: &[&str] = &[
     "CREATE TRIGGER submission_is_immutable BEFORE UPDATE ON submission \
@@ -202,7 +205,8 @@ statements! {
     SET_RELEASED = "UPDATE assignment SET released_at = $2 WHERE id = $1";
     EXTENSION = "SELECT until, attempts, reason, given_by, given_at FROM extension WHERE assignment = $1 AND person = $2";
     EXTENSIONS = "SELECT e.person, a.slug, e.until, e.attempts, e.reason, p.name, e.given_at FROM extension e \
-        JOIN assignment a ON a.id = e.assignment JOIN person p ON p.id = e.given_by WHERE a.course = $1";
+        JOIN assignment a ON a.id = e.assignment JOIN person p ON p.id = e.given_by WHERE a.course = $1 \
+        AND (CAST($2 AS TEXT) IS NULL OR e.person = $2) AND (CAST($3 AS TEXT) IS NULL OR a.slug = $3)";
     ADD_EXTENSION = "INSERT INTO extension (assignment, person, until, attempts, reason, given_by, given_at) \
         VALUES ($1, $2, $3, $4, $5, $6, $7)";
     REMOVE_EXTENSION = "DELETE FROM extension WHERE assignment = $1 AND person = $2";
@@ -225,11 +229,8 @@ statements! {
         WHERE a.course = $1 AND a.slug = $2 AND s.person = $3";
     KEPT_OF_PERSON = "SELECT COUNT(*), COALESCE(SUM(OCTET_LENGTH(answers)), 0) FROM submission WHERE person = $1";
     LATEST_VERDICT = "SELECT body FROM verdict WHERE submission = $1 ORDER BY run DESC LIMIT 1";
-    SUBMISSIONS = "SELECT s.id, a.slug, s.student, s.answers, v.body FROM submission s \
-        JOIN assignment a ON a.id = s.assignment JOIN verdict v ON v.submission = s.id \
-        WHERE a.course = $1 AND v.run = (SELECT MAX(run) FROM verdict w WHERE w.submission = s.id) \
-        AND (CAST($2 AS TEXT) IS NULL OR s.person = $2) AND (CAST($3 AS TEXT) IS NULL OR a.slug = $3) \
-        ORDER BY s.n DESC LIMIT $4";
+    SUBMISSIONS = submissions!("CAST($2 AS TEXT) IS NULL");
+    SUBMISSIONS_OF = submissions!("s.person = $2");
     REBUILDABLE = "SELECT s.id, s.person, a.slug, s.answers, v.body, v.lesson_sha256, v.seed, v.build, s.received_at \
         FROM verdict v JOIN submission s ON s.id = v.submission JOIN assignment a ON a.id = s.assignment \
         WHERE a.course = $1 AND (CAST($2 AS TEXT) IS NULL OR a.slug = $2) \
@@ -285,22 +286,22 @@ statements! {
         WHERE s.person = $1";
     REPLACE_VERDICT = "UPDATE verdict SET body = $3, seed = $4 WHERE submission = $1 AND run = $2";
 
-    HANDED = "SELECT s.person, a.slug, s.id, s.n, s.received_at, COALESCE(v.counted, s.counted), v.earned \
-        FROM submission s JOIN assignment a ON a.id = s.assignment JOIN verdict v ON v.submission = s.id \
-        WHERE a.course = $1 AND v.run = (SELECT MAX(run) FROM verdict w WHERE w.submission = s.id) \
-        AND (CAST($2 AS TEXT) IS NULL OR s.person = $2) AND (CAST($3 AS TEXT) IS NULL OR a.slug = $3)";
+    HANDED = handed!("CAST($2 AS TEXT) IS NULL");
+    HANDED_OF = handed!("s.person = $2");
+    HANDED_BY = "SELECT a.slug, COUNT(DISTINCT s.person) FROM submission s JOIN assignment a ON a.id = s.assignment \
+        WHERE a.course = $1 GROUP BY a.slug";
     ADD_DECISION = "INSERT INTO decision (id, course, n, kind, person, assignment, question, amount, reason, decided_by, decided_at) \
         VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11)";
     ADD_PREDICTION = "INSERT INTO prediction (course, person, slug, prediction, choice, why, n, given_at) \
         VALUES ($1, $2, $3, $4, $5, $6, $7, $8)";
     PREDICTED = "SELECT COUNT(*) FROM prediction WHERE course = $1 AND person = $2 AND slug = $3 AND prediction = $4";
-    PREDICTIONS = "SELECT q.person, p.name, q.slug, q.prediction, q.choice, q.why, q.given_at FROM prediction q \
-        JOIN person p ON p.id = q.person WHERE q.course = $1 AND (CAST($2 AS TEXT) IS NULL OR q.person = $2) \
-        AND (CAST($3 AS TEXT) IS NULL OR q.slug = $3) ORDER BY q.n";
+    PREDICTIONS = predictions!("CAST($2 AS TEXT) IS NULL");
+    PREDICTIONS_OF = predictions!("q.person = $2");
     EMPTY_PREDICTIONS = "UPDATE prediction SET why = '' WHERE person = $1";
     PREDICTION_ROWS = "SELECT * FROM prediction WHERE course = $1 ORDER BY n";
     DECISIONS = "SELECT d.person, a.slug, d.kind, d.question, d.amount, d.reason, p.name, d.decided_at FROM decision d \
-        JOIN assignment a ON a.id = d.assignment JOIN person p ON p.id = d.decided_by WHERE d.course = $1 ORDER BY d.n";
+        JOIN assignment a ON a.id = d.assignment JOIN person p ON p.id = d.decided_by WHERE d.course = $1 \
+        AND (CAST($2 AS TEXT) IS NULL OR d.person = $2) AND (CAST($3 AS TEXT) IS NULL OR a.slug = $3) ORDER BY d.n";
 
     VERDICT_COUNT = "SELECT COUNT(*) FROM verdict v JOIN submission s ON s.id = v.submission WHERE s.assignment = $1";
     ADD_REGRADE = "INSERT INTO regrade (id, course, n, assignment, choice, reason, lesson_sha256, made_by, made_at, \

@@ -175,7 +175,8 @@ impl Store {
     /// Errors if the file cannot be read.
     pub async fn list(&self, query: &Query) -> Result<Vec<StoredSubmission>, StoreError> {
         let limit = i64::try_from(query.limit).unwrap_or(i64::MAX);
-        let list = sqlx::query_as(sql::SUBMISSIONS).bind(&query.course).bind(&query.person);
+        let statement = query.person.as_ref().map_or(sql::SUBMISSIONS, |_| sql::SUBMISSIONS_OF);
+        let list = sqlx::query_as(statement).bind(&query.course).bind(&query.person);
         let rows: Vec<(String, String, String, String, String)> =
             readable(list.bind(&query.lesson).bind(limit), &self.pools.readers).await?;
         let read = |(id, lesson, student, answers, verdict): (String, String, String, String, String)| {

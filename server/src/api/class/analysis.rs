@@ -112,7 +112,7 @@ async fn words(
 ) -> Result<Answer<ClassWords>, Problem> {
     let lesson = lessons::find(&app, &slug)?;
     let class = Class::open(&app.store, CLASS, &lesson.slug).await?;
-    let book = Book::open(&app.store, CLASS, None).await?;
+    let book = Book::open(&app.store, CLASS, None, Some(&lesson.slug)).await?;
     let people = app.store.people(CLASS).await?.into_iter();
     let students: HashSet<String> =
         people.filter(|one| one.role == Role::Student).map(|one| one.id).collect();

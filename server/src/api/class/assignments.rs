@@ -104,11 +104,16 @@ struct PersonExtension {
 #[utoipa::path(get, path = "/assignments", operation_id = "list_assignments", tag = "class", responses(
     (status = 200, description = "Policies, releases and extensions", body = ref(of::<AssignmentList>()))))]
 async fn list(State(app): State<App>) -> Result<Answer<AssignmentList>, Problem> {
-    let book = Book::open(&app.store, CLASS, None).await?;
+    let assignments = app.store.assignments(CLASS).await?;
+    let given = app.store.extensions(CLASS, None, None).await?;
+    let handed = app.store.handed_by(CLASS).await?;
     let assigned = |lesson: &Lesson| {
-        let assignment = book.assignment(&lesson.slug).cloned().unwrap_or(Assignment::of(&lesson.slug));
-        let extensions = book.in_lesson(&lesson.slug).filter_map(|(person, entry)| {
-            Some(PersonExtension { person: person.to_owned(), extension: entry.extension.clone()? })
+        let assignment = assignments.iter().find(|one| one.lesson == lesson.slug).cloned();
+        let assignment = assignment.unwrap_or_else(|| Assignment::of(&lesson.slug));
+        let own = given.iter().filter(|(_, slug, _)| *slug == lesson.slug);
+        let extensions = own.map(|(person, _, extension)| PersonExtension {
+            person: person.clone(),
+            extension: extension.clone(),
         });
         AssignedLesson {
             slug: lesson.slug.clone(),
@@ -117,7 +122,7 @@ async fn list(State(app): State<App>) -> Result<Answer<AssignmentList>, Problem>
             policy: assignment.policy,
             released: assignment.released,
             extensions: extensions.collect(),
-            people: book.in_lesson(&lesson.slug).filter(|(_, entry)| !entry.handed.is_empty()).count(),
+            people: handed.get(&lesson.slug).copied().unwrap_or(0),
         }
     };
     Ok(Answer(AssignmentList(app.course.lessons().iter().map(assigned).collect())))
@@ -267,7 +272,7 @@ async fn preview(
         assignment.policy = policy;
     }
     let person = wanted.person.unwrap_or_default();
-    let book = Book::open(&app.store, CLASS, Some(&person)).await?;
+    let book = Book::open(&app.store, CLASS, Some(&person), Some(&lesson.slug)).await?;
     let entry = book.of(&person, &lesson.slug).cloned().unwrap_or_else(Entry::default);
     let standing = standing(&case(&assignment, &entry, &lesson), at);
     let newest = entry.handed.iter().filter(|one| one.at <= at).max_by_key(|one| (one.at, one.n));

@@ -149,7 +149,7 @@ async fn own(State(app): State<App>, caller: Caller) -> Result<impl IntoResponse
     let id = member.id.as_str();
     let query =
         Query { course: CLASS.to_owned(), person: Some(id.to_owned()), lesson: None, limit: usize::MAX };
-    let book = Book::open(&app.store, CLASS, Some(id)).await?;
+    let book = Book::open(&app.store, CLASS, Some(id), None).await?;
     let told = |lesson: &str| {
         let standing = app.course.lesson(lesson).map(|lesson| book.standing(id, lesson, Moment::now()));
         standing.map_or(Revealed::NOTHING, |standing| standing.turn.revealed)
@@ -159,9 +159,9 @@ async fn own(State(app): State<App>, caller: Caller) -> Result<impl IntoResponse
         hold(&mut one.verdict, told(&one.lesson));
     }
     let submissions = found.into_iter().map(|one| json!({"answers": one.answers, "verdict": one.verdict}));
-    let decisions = app.store.decisions(CLASS).await?.into_iter().filter(|decision| {
+    let decisions = app.store.decisions(CLASS, Some(id), None).await?.into_iter().filter(|decision| {
         let is_of_points = matches!(decision.kind, DecisionKind::Points | DecisionKind::Mark);
-        decision.person == id && (!is_of_points || told(&decision.lesson).points)
+        !is_of_points || told(&decision.lesson).points
     });
     let decision = |Decision { lesson, question, points, reason, at, .. }| OwnDecision {
         lesson,

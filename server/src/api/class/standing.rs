@@ -23,7 +23,7 @@ use crate::app::App;
 use crate::grades::{Book, Record, record};
 use crate::policy::{Moment, Revealed};
 use crate::problem::Problem;
-use crate::store::{CLASS, DecisionKind, Member, Query, Role, Said, StoreError, VerdictHistory};
+use crate::store::{CLASS, DecisionKind, Member, Role, Said, StoreError, VerdictHistory};
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<Record>();
@@ -88,7 +88,7 @@ async fn ask(
     let member = caller.class_member()?;
     let lesson = lessons::find(&app, &words.lesson)?;
     let text = text_of(&words.text, "/text")?;
-    let book = Book::open(&app.store, CLASS, Some(&member.id)).await?;
+    let book = Book::open(&app.store, CLASS, Some(&member.id), Some(&lesson.slug)).await?;
     let entry = book.of(&member.id, &lesson.slug).filter(|entry| !entry.handed.is_empty());
     let conflict =
         |code, detail: &str, hint: &str| Err(Problem::new(StatusCode::CONFLICT, code, detail, hint));
@@ -177,7 +177,7 @@ async fn seen(app: &App, member: &Member, id: &str) -> Result<(Vec<VerdictHistor
         return Err(StoreError::Unknown("submission").into());
     }
     let lesson = lessons::find(app, &first.lesson)?;
-    let book = Book::open(&app.store, CLASS, Some(&member.id)).await?;
+    let book = Book::open(&app.store, CLASS, Some(&member.id), Some(&lesson.slug)).await?;
     let revealed = book.standing(&member.id, lesson, Moment::now()).turn.revealed;
     Ok((found, revealed))
 }
@@ -193,11 +193,9 @@ async fn file(
     caller: Caller,
 ) -> Result<impl IntoResponse, Problem> {
     let member = caller.class_member()?;
-    let (found, _) = seen(&app, &member, &id).await?;
-    let person = found.into_iter().next().map(|one| one.person);
-    let query = Query { course: CLASS.to_owned(), person, lesson: None, limit: usize::MAX };
-    let submission = app.store.list(&query).await?.into_iter().find(|one| one.id == id);
-    let text = submission.and_then(|one| one.answers[&question]["file"].as_str().map(str::to_owned));
+    seen(&app, &member, &id).await?;
+    let submission = app.store.submission(CLASS, &id).await?;
+    let text = submission.and_then(|(_, one)| one.answers[&question]["file"].as_str().map(str::to_owned));
     let text = text.ok_or(StoreError::Unknown("file"))?;
     let headers = [
         (header::CONTENT_TYPE, "text/plain; charset=utf-8"),

@@ -339,7 +339,7 @@ async fn own(
     member: &Member,
     mut found: Vec<StoredSubmission>,
 ) -> Result<Vec<StoredSubmission>, Problem> {
-    let book = Book::open(&app.store, CLASS, Some(&member.id)).await?;
+    let book = Book::open(&app.store, CLASS, Some(&member.id), None).await?;
     let (member, now) = (member.clone(), Moment::now());
     blocking(move || {
         for one in &mut found {

@@ -6,9 +6,10 @@ use serde_json::{Map, Value};
 use triad_lessons::{Lesson, Mark, Verdict};
 
 use crate::app::App;
-use crate::grades::{Entry, Marked};
+use crate::grades::{Book, Entry, Marked};
 use crate::policy::{Moment, Policy, Revealed, When};
 use crate::problem::Problem;
+use crate::store::CLASS;
 
 /// The verdict of a submission, without what is held back.
 #[derive(Debug, Serialize, Deserialize, JsonSchema)]
@@ -176,6 +177,6 @@ pub(in crate::api) async fn revealed(
     lesson: &Lesson,
 ) -> Result<Revealed, Problem> {
     let Some(person) = person.filter(|_| app.access.is_class()) else { return Ok(Revealed::ALL) };
-    let book = crate::grades::Book::open(&app.store, crate::store::CLASS, Some(person)).await?;
+    let book = Book::open(&app.store, CLASS, Some(person), Some(&lesson.slug)).await?;
     Ok(book.standing(person, lesson, Moment::now()).turn.revealed)
 }

@@ -234,7 +234,7 @@ async fn data_of(store: &Store, name: &str) -> Result<String, Problem> {
     let id = person(store, course, name).await?;
     let query = Query { course: course.into(), person: Some(id.clone()), lesson: None, limit: usize::MAX };
     let submissions = store.list(&query).await?.into_iter();
-    let decisions = store.decisions(course).await?.into_iter().filter(|decision| decision.person == id);
+    let decisions = store.decisions(course, Some(&id), None).await?.into_iter();
     let decision = |one: crate::store::Decision| json!({"lesson": one.lesson, "points": one.points, "reason": one.reason, "at": one.at});
     let data = json!({
         "person": {"id": id, "name": name}, "course": title,

@@ -96,13 +96,18 @@ impl Store {
         transaction.commit().await
     }
 
-    /// The extensions of a course, with person and lesson.
+    /// The extensions of a course, or of one person or lesson, with person and lesson.
     ///
     /// Errors if the file cannot be read.
-    pub async fn extensions(&self, course: &str) -> Result<Vec<(String, String, Extension)>, StoreError> {
+    pub async fn extensions(
+        &self,
+        course: &str,
+        person: Option<&str>,
+        lesson: Option<&str>,
+    ) -> Result<Vec<(String, String, Extension)>, StoreError> {
         type Row = (String, String, Option<i64>, i64, String, String, i64);
-        let rows: Vec<Row> =
-            sqlx::query_as(sql::EXTENSIONS).bind(course).fetch_all(&self.pools.readers).await?;
+        let list = sqlx::query_as(sql::EXTENSIONS).bind(course).bind(person).bind(lesson);
+        let rows: Vec<Row> = list.fetch_all(&self.pools.readers).await?;
         let read = |(person, lesson, until, attempts, reason, by, at): Row| {
             (person, lesson, extension((until, attempts, reason, by, at)))
         };

@@ -1,5 +1,7 @@
 //! What everybody handed in as far as grades go by it, and what people decided about it.
 
+use std::collections::HashMap;
+
 use crate::policy::{Handed, Moment};
 use crate::store::error::StoreError;
 use crate::store::log::{self, Event};
@@ -108,7 +110,10 @@ impl Store {
         lesson: Option<&str>,
     ) -> Result<Vec<HandedRow>, StoreError> {
         type Row = (String, String, String, i64, i64, i64, f64);
-        let list = sqlx::query_as(sql::HANDED).bind(course).bind(person).bind(lesson);
+        let list = sqlx::query_as(person.map_or(sql::HANDED, |_| sql::HANDED_OF))
+            .bind(course)
+            .bind(person)
+            .bind(lesson);
         let rows: Vec<Row> = list.fetch_all(&self.pools.readers).await?;
         let read = |(person, lesson, id, n, at, judged, earned)| {
             let handed = Handed { id, n, at: Moment(at), judged: judged == 1, earned };
@@ -117,13 +122,27 @@ impl Store {
         Ok(rows.into_iter().map(read).collect())
     }
 
-    /// All decisions of a course, in the order in which they were made.
+    /// How many people have handed in something, by lesson.
     ///
     /// Errors if the file cannot be read.
-    pub async fn decisions(&self, course: &str) -> Result<Vec<Decision>, StoreError> {
+    pub async fn handed_by(&self, course: &str) -> Result<HashMap<String, usize>, StoreError> {
+        let count = sqlx::query_as(sql::HANDED_BY).bind(course);
+        let rows: Vec<(String, i64)> = count.fetch_all(&self.pools.readers).await?;
+        Ok(rows.into_iter().map(|(lesson, people)| (lesson, usize::try_from(people).unwrap_or(0))).collect())
+    }
+
+    /// The decisions of a course, or of those about one person or lesson, in the order in which they were made.
+    ///
+    /// Errors if the file cannot be read.
+    pub async fn decisions(
+        &self,
+        course: &str,
+        person: Option<&str>,
+        lesson: Option<&str>,
+    ) -> Result<Vec<Decision>, StoreError> {
         type Row = (String, String, String, Option<String>, Option<f64>, String, String, i64);
-        let rows: Vec<Row> =
-            sqlx::query_as(sql::DECISIONS).bind(course).fetch_all(&self.pools.readers).await?;
+        let list = sqlx::query_as(sql::DECISIONS).bind(course).bind(person).bind(lesson);
+        let rows: Vec<Row> = list.fetch_all(&self.pools.readers).await?;
         let read = |(person, lesson, kind, question, points, reason, by, at): Row| Decision {
             person,
             lesson,

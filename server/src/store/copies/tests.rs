@@ -155,8 +155,8 @@ async fn a_course_moves_whole_and_only_once() {
     }
     assert_eq!(here, there);
     assert_eq!(
-        place.store.decisions(HOME).await.expect("reads"),
-        other.decisions(HOME).await.expect("reads")
+        place.store.decisions(HOME, None, None).await.expect("reads"),
+        other.decisions(HOME, None, None).await.expect("reads")
     );
     assert_eq!(
         place.store.course(HOME).await.expect("a course"),
