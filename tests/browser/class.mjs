@@ -33,6 +33,15 @@ async function look(page, view, { fullPage = true } = {}) {
   say(`looked at ${view}`);
 }
 
+/** Nothing of the page runs over its edge, on a desk or on a phone. */
+async function fits(page, view) {
+  for (const width of [390, 1280]) {
+    await page.setViewportSize({ width, height: 900 });
+    const over = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+    assert(over <= 0, `${view} is ${over} px wider than ${width}`);
+  }
+}
+
 /** Asks the server as somebody who has come in. */
 async function ask(method, path, cookie, body) {
   const reply = await fetch(`${address}/api/v1${path}`, {
@@ -143,12 +152,14 @@ async function question(page) {
   await page.goto(`${address}/class/lessons/${LESSON}/questions/sign-of-lambda`);
   await page.getByRole("heading", { name: "What was chosen" }).waitFor();
   await look(page, "choice");
+  await fits(page, "a question with options");
   await page.goBack();
   await page.locator(".mistakes summary").first().click();
   await page.getByRole("link", { name: "Émilie du Châtelet" }).click();
   await page.getByRole("heading", { name: "Émilie du Châtelet" }).waitFor();
   await page.locator(".history-entry").first().click();
   await look(page, "student");
+  await fits(page, "a student");
 }
 
 const SAID = "virtual-work";
@@ -215,9 +226,11 @@ async function hall(page) {
   say("shown in the lecture room without names");
 }
 
-async function exchange(page) {
+async function exchange(page, students) {
+  await ask("POST", "/record/requests", students[4].cookie, { lesson: LESSON, text: "is that not right too?" });
   await page.goto(`${address}/class`);
   await page.getByRole("heading", { name: "12 students" }).waitFor();
+  await page.locator(".askers", { hasText: "1 asks for a look again" }).getByRole("link", { name: "Leonhard Euler" }).waitFor();
   await look(page, "table");
   const file = "Student,ID,SIS User ID,SIS Login ID,Section,02 Simple pendulum (4711)\n\"Lovelace, Ada\",9,,,M,\nNobody,10,,,M,3\n";
   const title = await page.locator(".lesson-links a", { hasText: /simple pendulum/i }).innerText();
@@ -248,7 +261,7 @@ async function all() {
   const students = await glance(page, code);
   await question(page);
   await said(page, students);
-  await exchange(page);
+  await exchange(page, students);
   await own(students[1]);
 }
 

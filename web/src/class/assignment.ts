@@ -121,7 +121,7 @@ function policyFields(policy: Policy): { rows: HTMLElement[]; read: () => Policy
   const [opensRow, opens] = when("opens", t("Opens"), policy.opens);
   const [dueRow, due] = when("due", t("Due"), policy.due);
   const [closesRow, closes] = when("closes", t("Closes"), policy.closes);
-  const [lateRow, late] = when(t("late"), t("Then, until"), policy.late?.at(-1)?.until);
+  const [lateRow, late] = when("late", t("Then, until"), policy.late?.at(-1)?.until);
   const share = h("input", {
     class: "field number",
     type: "number",
@@ -196,7 +196,7 @@ function policySection(lesson: AssignedLesson, students: Somebody[], again: () =
     event.preventDefault();
     api
       .setPolicy(lesson.slug, read())
-      .then(again)
+      .then(() => said.replaceChildren(h("p", { role: "status" }, t("It counts from now on."))))
       .catch((error: unknown) => said.replaceChildren(problemNotice(error)));
   });
   return h(
@@ -271,7 +271,9 @@ function previewed({ at, standing, told }: PolicyPreview): HTMLElement {
       h("td", { class: "number" }, points(credit.points)),
     ),
   );
-  const head = [t("Attempt"), t("Handed in"), t("Earned"), t("On time"), t("As attempt"), t("Counts")];
+  const head = [t("Attempt"), t("Handed in"), t("Earned"), t("On time"), t("As attempt"), t("Counts")].map(
+    (text, k) => h("th", { scope: "col", class: k === 1 ? "" : "number" }, text),
+  );
   return h(
     "div",
     { class: "stack" },
@@ -285,18 +287,17 @@ function previewed({ at, standing, told }: PolicyPreview): HTMLElement {
         points: points(standing.points),
       }),
       told
-        ? t("The student is told of the last submission: {told}.", {
+        ? ` ${t("The student is told of the last submission: {told}.", {
             told: told.earned == null ? t("nothing yet") : pointsOf(told),
-          })
+          })}`
         : "",
     ),
     rows.length === 0
       ? h("p", { class: "help" }, t("No attempts by then."))
       : h(
-          "table",
-          { class: "data" },
-          h("thead", null, h("tr", null, ...head.map((text) => h("th", { scope: "col" }, text)))),
-          h("tbody", null, ...rows),
+          "div",
+          { class: "table-scroll", tabindex: "0", role: "region", "aria-label": t("Attempts") },
+          h("table", { class: "data" }, h("thead", null, h("tr", null, ...head)), h("tbody", null, ...rows)),
         ),
   );
 }

@@ -153,10 +153,36 @@ function paintTable(root: HTMLElement, grades: GradeTable): void {
       ),
     ),
     said,
+    ...askers(grades),
     grades.students.length === 0
       ? empty(t("Nobody has joined yet"), t("Show the code above: whoever joins appears here."))
       : sheet(grades),
   );
+}
+
+/** Who asks for a look again: one mark among ten thousand cells is found by nobody. */
+function askers(grades: GradeTable): HTMLElement[] {
+  const items = grades.students.flatMap((student) =>
+    grades.lessons
+      .filter((lesson) => student.lessons[lesson.slug]?.asked)
+      .map((lesson) =>
+        h(
+          "li",
+          null,
+          h("a", { href: `/class/${encodeURIComponent(student.id)}` }, student.name),
+          `: ${lesson.number} ${lesson.title}`,
+        ),
+      ),
+  );
+  if (items.length === 0) return [];
+  return [
+    h(
+      "details",
+      { class: "askers", open: items.length <= 5 },
+      h("summary", null, t("{n} asks for a look again | {n} ask for a look again", { n: items.length })),
+      h("ul", { class: "remarks" }, ...items),
+    ),
+  ];
 }
 
 /** Takes a gradebook that Canvas exported, and gives it back with the grades that changed. */

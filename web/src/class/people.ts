@@ -123,7 +123,7 @@ function table(people: Somebody[], again: () => void): HTMLElement {
             : one.name,
         ),
         h("td", null, owns() ? roleChoice(one, said, again) : roleWord(one.role)),
-        h("td", { class: "row" }, ...actions(one, again)),
+        h("td", null, h("div", { class: "row" }, ...actions(one, again))),
       ),
     );
   return h(

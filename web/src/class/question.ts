@@ -110,7 +110,7 @@ function numbers(found: QuestionAnalysis): HTMLElement {
 }
 
 function mistakes(found: QuestionAnalysis): HTMLElement {
-  const items = found.mistakes.map((mistake) => h("li", null, behind(mistake, found.figures.answered)));
+  const items = found.mistakes.map((mistake) => h("li", null, behind(mistake, found)));
   return h(
     "section",
     { class: "student-lesson" },
@@ -122,7 +122,10 @@ function mistakes(found: QuestionAnalysis): HTMLElement {
 }
 
 /** A mistake, and at a press what was told and who made it: no name stands on the page before. */
-function behind(mistake: QuestionAnalysis["mistakes"][number], answered: number): HTMLElement {
+function behind(mistake: QuestionAnalysis["mistakes"][number], found: QuestionAnalysis): HTMLElement {
+  const { answered } = found.figures;
+  const option = found.choices.find((one) => one.id === mistake.name);
+  const name = option ? `${option.id}: ${optionText(option)}` : mistakeName(mistake.name);
   const mended = mistake.students - mistake.still;
   const rows = mistake.answers.map((one) =>
     h(
@@ -142,7 +145,7 @@ function behind(mistake: QuestionAnalysis["mistakes"][number], answered: number)
       "summary",
       null,
       h("span", { class: "count" }, t("{students} of {answered}", { students: mistake.students, answered })),
-      h("span", null, mistakeName(mistake.name)),
+      h("span", null, name),
       shareBar(mistake.students / Math.max(1, answered)),
     ),
     h(
@@ -163,7 +166,7 @@ function behind(mistake: QuestionAnalysis["mistakes"][number], answered: number)
           class: "table-scroll",
           tabindex: "0",
           role: "region",
-          "aria-label": t("Answers: {name}", { name: mistakeName(mistake.name) }),
+          "aria-label": t("Answers: {name}", { name }),
         },
         h(
           "table",
@@ -190,9 +193,12 @@ const toRead = (found: QuestionAnalysis): HTMLElement =>
     ),
   );
 
+const optionText = (one: QuestionAnalysis["choices"][number]): string =>
+  authored(h("span"), one.html).textContent || one.id;
+
 function choices(found: QuestionAnalysis): HTMLElement[] {
   if (found.choices.length === 0) return [];
-  const names = found.choices.map((one) => authored(h("span"), one.html).textContent ?? one.id);
+  const names = found.choices.map(optionText);
   const right = found.choices.findIndex((one) => one.right);
   const counts = (which: "first" | "last"): HTMLElement =>
     h(

@@ -1,14 +1,21 @@
 // Grading again what was handed in to a lesson: look first, then apply, then perhaps take it back.
 
 import { api } from "../api/client";
-import type { AppliedRegrade, AssignedLesson, RegradePreview } from "../api/types";
+import type { AppliedRegrade, AssignedLesson, GradedSubmission, RegradePreview } from "../api/types";
 import { h } from "../core/dom";
 import { dateTime, points } from "../core/format";
 import { setMaths } from "../core/maths";
-import { t } from "../core/texts";
+import { listed, t } from "../core/texts";
 import { pointsOf, verdictLine } from "../exercise/verdict";
 import { dialog } from "../ui/dialog";
 import { problemNotice } from "../ui/notice";
+import { mistakeName } from "./figures";
+
+/** For whom the new verdicts count. */
+const CHOICES: Record<string, () => string> = {
+  better: () => t("those who do not lose by it"),
+  replace: () => t("everybody"),
+};
 
 /** How often the page asks how far a preview is, ms. */
 const ASKED_EVERY_MS = 300;
@@ -92,7 +99,7 @@ function applied(
       return h(
         "li",
         null,
-        `${dateTime(one.at)} ${one.by}: ${one.reason} (${one.choice}).${end}`,
+        `${dateTime(one.at)} ${one.by}: ${one.reason} (${CHOICES[one.choice]?.() ?? one.choice}).${end}`,
         one.undone ? null : undo,
       );
     });
@@ -132,8 +139,9 @@ function result(preview: RegradePreview, again: () => void, seen: HTMLElement): 
         )
       : null,
     preview.people.length === 0 ? h("p", null, t("Nothing would change.")) : histogram(preview),
-    preview.people.length === 0 ? null : people(preview),
+    // Before the people, who may be hundreds.
     preview.people.length === 0 ? null : apply(preview, again, seen),
+    preview.people.length === 0 ? null : people(preview),
   );
 }
 
@@ -147,7 +155,7 @@ function histogram({ histogram_before: before, histogram_after: after }: Regrade
       h("span", null, String(count)),
       h("span", { class: "visually-hidden" }, label),
     );
-  return h(
+  const table = h(
     "table",
     { class: "data tenths" },
     h("caption", null, t("Students by tenths of the points that count")),
@@ -164,10 +172,17 @@ function histogram({ histogram_before: before, histogram_after: after }: Regrade
     h(
       "tbody",
       null,
-      h("tr", null, h("th", { scope: "row" }, t("Before")), ...before.map((count) => bar(count, "before"))),
-      h("tr", null, h("th", { scope: "row" }, t("After")), ...after.map((count) => bar(count, "after"))),
+      h(
+        "tr",
+        null,
+        h("th", { scope: "row" }, t("Before")),
+        ...before.map((count) => bar(count, t("Before"))),
+      ),
+      h("tr", null, h("th", { scope: "row" }, t("After")), ...after.map((count) => bar(count, t("After")))),
     ),
   );
+  const label = t("Students by tenths of the points that count");
+  return h("div", { class: "table-scroll", tabindex: "0", role: "region", "aria-label": label }, table);
 }
 
 function people(preview: RegradePreview): HTMLElement {
@@ -188,49 +203,33 @@ function people(preview: RegradePreview): HTMLElement {
         null,
         ...person.submissions.flatMap((one) =>
           Object.entries(one.misconceptions).map(([question, [was, is]]) =>
-            h("div", null, `${question}: ${was || t("none")} → ${is || t("none")}`),
+            h("div", null, `${question}: ${mistake(was)} → ${mistake(is)}`),
           ),
         ),
       ),
       h("td", null, ...person.submissions.map((one) => compare(preview.id, one.id, dateTime(one.at)))),
     ),
   );
-  const head = [t("Student"), t("Before"), t("After"), t("Attempts"), t("Misconceptions"), t("Verdicts")];
+  const head = [t("Student"), t("Before"), t("After"), t("Attempts"), t("Misconceptions"), t("Verdicts")].map(
+    (text, k) => h("th", { scope: "col", class: k > 0 && k < 4 ? "number" : "" }, text),
+  );
   return h(
     "div",
     { class: "table-scroll", tabindex: "0", role: "region", "aria-label": t("What changes for whom") },
-    h(
-      "table",
-      { class: "data" },
-      h("thead", null, h("tr", null, ...head.map((text) => h("th", { scope: "col" }, text)))),
-      h("tbody", null, ...rows),
-    ),
+    h("table", { class: "data" }, h("thead", null, h("tr", null, ...head)), h("tbody", null, ...rows)),
   );
 }
 
-/** Both verdicts side by side. */
+const mistake = (name: string): string => (name ? mistakeName(name) : t("none"));
+
+/** Both verdicts side by side: question by question, those that change before the others. */
 function compare(id: string, submission: string, label: string): HTMLElement {
   const button = h("button", { type: "button", class: "button small" }, label);
   button.addEventListener("click", async () => {
     try {
       const both = await api.bothVerdicts(id, submission);
-      const side = (title: string, verdict: typeof both.before | null | undefined): HTMLElement =>
-        h(
-          "div",
-          null,
-          h(
-            "h3",
-            null,
-            verdict ? `${title}: ${pointsOf(verdict)}` : t("{title}: cannot be graded", { title }),
-          ),
-          ...(verdict?.questions ?? []).map((question) =>
-            h("div", null, h("p", { class: "history-label" }, question.id), verdictLine(question)),
-          ),
-        );
-      const box = dialog(
-        t("Both verdicts"),
-        h("div", { class: "side-by-side" }, side(t("Before"), both.before), side(t("After"), both.after)),
-      );
+      const box = dialog(t("Both verdicts"), bothSides(both.before, both.after));
+      box.classList.add("is-wide");
       await setMaths(box);
     } catch (error) {
       dialog(t("Both verdicts"), problemNotice(error));
@@ -239,13 +238,39 @@ function compare(id: string, submission: string, label: string): HTMLElement {
   return button;
 }
 
+function bothSides(before: GradedSubmission, after: GradedSubmission | null | undefined): HTMLElement {
+  const head = (title: string, verdict: typeof after): HTMLElement =>
+    h("h3", null, verdict ? `${title}: ${pointsOf(verdict)}` : t("{title}: cannot be graded", { title }));
+  const of = (verdict: typeof after, id: string) => verdict?.questions.find((one) => one.id === id);
+  const ids = [...new Set([...before.questions, ...(after?.questions ?? [])].map((one) => one.id))];
+  const changes = (id: string): boolean => JSON.stringify(of(before, id)) !== JSON.stringify(of(after, id));
+  const same = ids.filter((id) => !changes(id));
+  const cell = (verdict: typeof after, id: string): HTMLElement => {
+    const found = of(verdict, id);
+    return h("div", null, h("p", { class: "history-label" }, id), found ? verdictLine(found) : t("none"));
+  };
+  return h(
+    "div",
+    { class: "stack" },
+    h(
+      "div",
+      { class: "both-verdicts" },
+      head(t("Before"), before),
+      head(t("After"), after),
+      ...ids.filter(changes).flatMap((id) => [cell(before, id), cell(after, id)]),
+    ),
+    same.length > 0
+      ? h("p", { class: "help" }, t("The same in both: {questions}.", { questions: listed(same) }))
+      : null,
+  );
+}
+
 function apply(preview: RegradePreview, again: () => void, seen: HTMLElement): HTMLElement {
   const reason = h("input", { id: "regrade-reason", class: "field", required: true, maxlength: "2000" });
   const choice = h(
     "select",
     { id: "regrade-choice", class: "field" },
-    h("option", { value: "better" }, t("those who do not lose by it")),
-    h("option", { value: "replace" }, t("everybody")),
+    ...Object.entries(CHOICES).map(([word, text]) => h("option", { value: word }, text())),
   );
   const said = h("div", { "aria-live": "polite" });
   const form = h(

@@ -1,7 +1,7 @@
 // One student, for those who teach: every attempt with its verdict, and decisions about what counts.
 
 import { api } from "../api/client";
-import type { GradeTable, KeptSubmission, PersonRecord, Reached } from "../api/types";
+import type { KeptSubmission, LessonRecord, PersonRecord } from "../api/types";
 import { h } from "../core/dom";
 import { dateTime, points } from "../core/format";
 import { setMaths } from "../core/maths";
@@ -19,12 +19,8 @@ export function studentPage(outlet: HTMLElement, params: string[]): Page {
   outlet.append(root);
   const load = async (): Promise<void> => {
     try {
-      const [grades, submissions, record] = await Promise.all([
-        api.standings(),
-        api.submissionsOf(id),
-        api.recordOf(id),
-      ]);
-      paint(root, id, grades, submissions, record, () => void load());
+      const [submissions, record] = await Promise.all([api.submissionsOf(id), api.recordOf(id)]);
+      paint(root, submissions, record, () => void load());
       await setMaths(root);
     } catch (error) {
       root.replaceChildren(problemNotice(error, [{ label: t("Try again"), run: () => void load() }]));
@@ -36,33 +32,29 @@ export function studentPage(outlet: HTMLElement, params: string[]): Page {
 
 function paint(
   root: HTMLElement,
-  id: string,
-  grades: GradeTable,
   submissions: KeptSubmission[],
   record: PersonRecord,
   again: () => void,
 ): void {
-  const student = grades.students.find((row) => row.id === id);
+  const { id, name } = record;
   const words = h("button", { type: "button", class: "button small" }, t("New words"));
-  words.addEventListener("click", () => renewWords(id, student?.name ?? ""));
-  const touched = grades.lessons.filter(
-    (lesson) => student?.lessons[lesson.slug] || submissions.some((one) => one.lesson === lesson.slug),
+  words.addEventListener("click", () => renewWords(id, name));
+  const touched = record.lessons.filter(
+    (lesson) =>
+      has(lesson) ||
+      lesson.remarks.length > 0 ||
+      lesson.extension ||
+      submissions.some((one) => one.lesson === lesson.slug),
   );
   root.replaceChildren(
     h("p", null, h("a", { href: "/class" }, t("← Class"))),
-    h(
-      "header",
-      { class: "page-head row between" },
-      h("h1", null, student?.name ?? t("Somebody of the class")),
-      words,
-    ),
+    h("header", { class: "page-head row between" }, h("h1", null, name), words),
     touched.length === 0
       ? empty(t("Nothing handed in yet"), t("Attempts appear here as soon as there are any."))
       : h("div"),
     ...touched.map((lesson) => {
-      const reached = student?.lessons[lesson.slug];
       const change = h("button", { type: "button", class: "button small" }, t("Change what counts"));
-      change.addEventListener("click", () => decide(id, lesson, reached, again));
+      change.addEventListener("click", () => decide(id, lesson, again));
       const remark = h("button", { type: "button", class: "button small" }, t("Write to the student"));
       remark.addEventListener("click", () => write(id, lesson, again));
       const own = submissions.filter((one) => one.lesson === lesson.slug);
@@ -73,22 +65,16 @@ function paint(
           "div",
           { class: "section-head" },
           h("h2", null, `${lesson.number} ${lesson.title}`),
-          h("p", null, standing(reached, lesson.possible), " ", change, " ", remark),
+          h("p", null, standing(lesson), " ", change, " ", remark),
         ),
-        told(record, lesson.slug),
+        remarksList(lesson),
         h("ol", { class: "history-list", reversed: true }, ...own.map(attempt)),
       );
     }),
   );
 }
 
-/** What was allowed, decided, said and regraded. */
-function told(record: PersonRecord, slug: string): HTMLElement | null {
-  const own = record.lessons.find((lesson) => lesson.slug === slug);
-  return own ? remarksList(own) : null;
-}
-
-function write(id: string, lesson: GradeTable["lessons"][number], again: () => void): void {
+function write(id: string, lesson: LessonRecord, again: () => void): void {
   const text = h("textarea", { id: "remark", class: "field", required: true, maxlength: "2000", rows: "4" });
   const wrong = h("div", { "aria-live": "polite" });
   const form = h(
@@ -112,15 +98,20 @@ function write(id: string, lesson: GradeTable["lessons"][number], again: () => v
   });
 }
 
-const standing = (reached: Reached | undefined, possible: number): string =>
-  reached
-    ? t("{points} of {possible}{earned}, {attempts}", {
-        points: points(reached.points),
-        possible: points(possible),
-        earned: reached.decided ? ` (${t("earned {earned}", { earned: points(reached.earned) })})` : "",
-        attempts: t("{n} attempt | {n} attempts", { n: reached.attempts }),
-      })
-    : t("nothing counts yet");
+/** Whether anything counts, or could. */
+const has = ({ standing: { attempts, points: score } }: LessonRecord): boolean =>
+  attempts > 0 || score?.decided != null || (score?.points ?? 0) > 0;
+
+function standing(lesson: LessonRecord): string {
+  const { attempts, points: score } = lesson.standing;
+  if (!score || !has(lesson)) return t("nothing counts yet");
+  return t("{points} of {possible}{earned}, {attempts}", {
+    points: points(score.points),
+    possible: points(lesson.possible),
+    earned: score.decided ? ` (${t("earned {earned}", { earned: points(score.earned) })})` : "",
+    attempts: t("{n} attempt | {n} attempts", { n: attempts }),
+  });
+}
 
 function attempt(one: KeptSubmission): HTMLElement {
   const head = one.gradable ? pointsOf(one) : t("Kept, not judged");
@@ -141,7 +132,7 @@ function attempt(one: KeptSubmission): HTMLElement {
           "div",
           { class: "history-question" },
           h("p", { class: "history-label" }, question.id),
-          h("p", { class: "help" }, t("Answer:"), " ", shown(one, question.id)),
+          h("p", { class: "help answer" }, t("Answer:"), " ", shown(one, question.id)),
           verdictLine(question),
         ),
       ),
@@ -159,17 +150,17 @@ function shown(one: KeptSubmission, question: string): HTMLElement | string {
       t("a file of {bytes} bytes", { bytes: answer.file.bytes }),
     );
   if (answer.settings) return JSON.stringify(answer.settings);
-  const value =
-    answer.choice ?? (typeof answer.value === "object" ? JSON.stringify(answer.value) : answer.value);
+  const value = answer.choice ?? (answer.value == null ? answer.value : typed(answer.value));
   return [value, answer.unit].filter((part) => part !== undefined && part !== null).join(" ") || t("none");
 }
 
-function decide(
-  id: string,
-  lesson: GradeTable["lessons"][number],
-  reached: Reached | undefined,
-  again: () => void,
-): void {
+/** What was typed: components in brackets, the rows of a matrix in brackets of their own. */
+function typed(value: unknown): string {
+  return Array.isArray(value) ? `(${value.map(typed).join(", ")})` : String(value);
+}
+
+function decide(id: string, lesson: LessonRecord, again: () => void): void {
+  const score = lesson.standing.points;
   const amount = h("input", {
     id: "decide-points",
     class: "field number",
@@ -177,7 +168,7 @@ function decide(
     min: "0",
     max: String(lesson.possible),
     step: "any",
-    value: String(reached?.points ?? 0),
+    value: String(score?.points ?? 0),
   });
   const reason = h("textarea", {
     id: "decide-reason",
@@ -214,7 +205,7 @@ function decide(
       "div",
       { class: "row" },
       h("button", { class: "button primary" }, t("Save")),
-      reached?.decided ? back : null,
+      score?.decided ? back : null,
     ),
   );
   const box = dialog(lesson.title, form);

@@ -29,7 +29,7 @@ fn drawn(student: usize, lesson: &Lesson) -> u64 {
 impl Habit {
     pub(super) fn of(student: usize, lesson: &Lesson) -> Self {
         // The lesson that is graded again has more attempts: 300 students make a thousand.
-        let wrong = if lesson.slug == FAULTY { 3 } else { 1 };
+        let wrong = if lesson.slug == FAULTY { 5 } else { 1 };
         match drawn(student, lesson) % 10 {
             0 => Self::Never,
             1..=3 => Self::Right,

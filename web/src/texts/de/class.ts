@@ -68,6 +68,10 @@ export const classroom = {
   "Questions in figures": "Fragen in Zahlen",
   "{students} handed in. First and best: the share of the points that first and best answers earn. Discrimination: the correlation of first answers with those to the other questions.":
     "Abgegeben haben: {students}. Zuerst und Beste: der Anteil der Punkte, den erste und beste Antworten verdienen. Trennschärfe: der Zusammenhang erster Antworten mit denen auf die anderen Fragen.",
+  "{n} asks for a look again | {n} ask for a look again":
+    "{n} bittet um einen neuen Blick | {n} bitten um einen neuen Blick",
+  "The same in both: {questions}.": "In beiden gleich: {questions}.",
+  "It counts from now on.": "Es gilt ab jetzt.",
   "To look at": "Zum Ansehen",
   "The class at a glance": "Der Kurs auf einen Blick",
   "As of {time}, and again every {pause} seconds while you look.":
@@ -327,7 +331,6 @@ export const classroom = {
   "Why (students see it)": "Warum (Studierende sehen es)",
   Apply: "Anwenden",
   "Applied. Students see it, and why.": "Angewendet. Studierende sehen es, und warum.",
-  "Somebody of the class": "Jemand aus dem Kurs",
   "Nothing handed in yet": "Noch nichts abgegeben",
   "Attempts appear here as soon as there are any.": "Versuche erscheinen hier, sobald es welche gibt.",
   "Change what counts": "Ändern, was zählt",
