@@ -36,7 +36,7 @@ export async function invite(room: string): Promise<void> {
               "p",
               { class: "notice is-note" },
               t(
-                "This address is known to this computer only. For a class start the server with “triad serve --host 0.0.0.0” and open the page at this computer’s address in the network.",
+                "This address is known to this computer only. For a class start the server with “triad serve --class --host 0.0.0.0” and open the page at this computer’s address in the network.",
               ),
             )
           : null,

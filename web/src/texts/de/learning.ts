@@ -213,8 +213,8 @@ export const learning = {
     "Noch einmal gefragt: Sprich mit deinem Nachbarn darüber und stimm dann neu ab.",
   "Join this lecture": "An dieser Vorlesung teilnehmen",
   "Open {address} and type": "{address} öffnen und eintippen:",
-  "This address is known to this computer only. For a class start the server with “triad serve --host 0.0.0.0” and open the page at this computer’s address in the network.":
-    "Diese Adresse kennt nur dieser Rechner. Starte den Server für einen Kurs mit „triad serve --host 0.0.0.0“ und öffne die Seite unter der Adresse dieses Rechners im Netz.",
+  "This address is known to this computer only. For a class start the server with “triad serve --class --host 0.0.0.0” and open the page at this computer’s address in the network.":
+    "Diese Adresse kennt nur dieser Rechner. Starte den Server für einen Kurs mit „triad serve --class --host 0.0.0.0“ und öffne die Seite unter der Adresse dieses Rechners im Netz.",
   "QR code of {text}": "QR-Code von {text}",
   "Which sign does Fx of {joint} have at this moment?":
     "Welches Vorzeichen hat Fx von {joint} in diesem Augenblick?",
