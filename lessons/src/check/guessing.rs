@@ -84,6 +84,11 @@ pub(super) fn longest(course: &Course) -> Option<Fault> {
             _ => None,
         })
         .collect();
+    too_telling(&choices)
+}
+
+/// The same of choices with the lengths of the right option and of the longest wrong one.
+fn too_telling(choices: &[(usize, usize)]) -> Option<Fault> {
     let longest = choices.iter().filter(|(right, wrong)| right > wrong).count();
     let [least, most] = LONGEST.map(|share| share * choices.len() as f64);
     (choices.len() >= ENOUGH && !(least..=most).contains(&(longest as f64))).then(|| Fault {
@@ -92,4 +97,21 @@ pub(super) fn longest(course: &Course) -> Option<Fault> {
         what: format!("the longest option is the right one in {longest} of {} choices", choices.len()),
         remedy: "let the right option be the longest as often as any other".to_owned(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_longest_option_may_be_right_neither_too_often_nor_never() {
+        let of = |right: usize, all: usize| {
+            let choices: Vec<_> = (0..all).map(|k| if k < right { (40, 38) } else { (38, 40) }).collect();
+            too_telling(&choices).map(|fault| fault.what)
+        };
+        assert_eq!(of(7, 12).as_deref(), Some("the longest option is the right one in 7 of 12 choices"));
+        assert_eq!(of(1, 12).as_deref(), Some("the longest option is the right one in 1 of 12 choices"));
+        assert_eq!((of(6, 12), of(2, 12)), (None, None));
+        assert_eq!(of(7, 7), None, "seven choices tell nothing");
+    }
 }

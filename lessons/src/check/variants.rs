@@ -1,6 +1,6 @@
 //! Trying out the numbers that students will be given.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::findings::Findings;
 use super::references::{judged, quantity_answer, reference_answer};
@@ -17,6 +17,8 @@ const GRADED: usize = 200;
 const RUN: usize = 2;
 /// Share of the variants in which a misconception must be recognised as itself.
 const RECOGNISED: f64 = 0.95;
+/// Largest share of the points whose answers may be everybody's: those can be handed on, and stand in a public course.
+const MOST_COMMON: f64 = 0.6;
 
 /// How often a misconception was recognised as itself, of the variants that ask its question.
 #[derive(Default)]
@@ -30,7 +32,9 @@ pub(super) fn all_fit(found: &mut Findings) {
     if found.lesson.parameters.is_empty() && found.lesson.exercise.draw.is_empty() {
         return;
     }
+    no_strange_file(found);
     let mut recognised: BTreeMap<(String, String), Recognised> = BTreeMap::new();
+    let mut personal = BTreeSet::new();
     for k in 0..GRADED {
         let lesson = match found.lesson.variant(&format!("check-{k}")) {
             Ok(lesson) => lesson,
@@ -54,6 +58,8 @@ pub(super) fn all_fit(found: &mut Findings) {
             );
         }
         count(&lesson, &mut recognised);
+        let of_ones_own = lesson.exercise.questions.iter().filter(|q| is_personal(found.lesson, q));
+        personal.extend(of_ones_own.map(|q| q.id.clone()));
         if k < RUN {
             let mut own = Findings::new(&lesson);
             measured::scene(&mut own);
@@ -67,11 +73,48 @@ pub(super) fn all_fit(found: &mut Findings) {
             }
         }
     }
+    handed_on(&personal, found);
     for ((id, name), Recognised { as_itself, of }) in recognised {
         if (as_itself as f64) < RECOGNISED * of as f64 {
             let what = format!("the misconception {name} is recognised in {as_itself} of {of} variants");
             found.question(&id, what, "change its value or the ranges of the parameters");
         }
+    }
+}
+
+/// Numbers that are drawn for a scene which is not there would be nobody's.
+fn no_strange_file(found: &mut Findings) {
+    let lesson = found.lesson;
+    let files = lesson.sources.exercise.scene.iter().filter_map(|patch| patch.file.as_deref());
+    for file in files.filter(|file| !lesson.files.contains_key(*file)) {
+        let what = format!("[[scene]] names {file}, which is not there");
+        found.add("exercise.toml", 0, what, "correct the name, or leave file away for scene.json");
+    }
+}
+
+/// Whether the right answer of a variant is another one than that of the text.
+fn is_personal(lesson: &Lesson, own: &Question) -> bool {
+    match (&own.body, lesson.question(&own.id).map(|common| &common.body)) {
+        (QuestionBody::Quantity(a), Some(QuestionBody::Quantity(b))) => {
+            !b.tolerance.accepts(&a.reference, &b.reference)
+        }
+        (QuestionBody::Model(a), Some(QuestionBody::Model(b))) => a.reference != b.reference,
+        (QuestionBody::Trajectory(a), Some(QuestionBody::Trajectory(b))) => a.scene != b.scene,
+        (QuestionBody::Implement(_), _) => true,
+        _ => false,
+    }
+}
+
+/// What everybody answers alike must not be worth as much as it takes to pass.
+fn handed_on(personal: &BTreeSet<String>, found: &mut Findings) {
+    let exercise = &found.lesson.exercise;
+    let common = exercise.at_most(|q| !q.is_judged_by_people() && !personal.contains(&q.id));
+    let all = exercise.possible();
+    if common > MOST_COMMON * all {
+        let what = format!("answers that are the same for everybody have {common} of {all} points");
+        let remedy =
+            "let more numbers be drawn, draw questions from a pool, or give what is common fewer points";
+        found.add("exercise.toml", 0, what, remedy);
     }
 }
 

@@ -16,8 +16,8 @@ pub mod question;
 mod tasks;
 
 pub(crate) use build::build;
-pub(crate) use context::BuildContext;
 pub use context::QuestionError;
+pub(crate) use context::{BuildContext, put_numbers};
 pub use diagram::Diagram;
 pub use parameters::Parameters;
 pub(crate) use quantity::numbers;

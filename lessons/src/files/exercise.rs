@@ -19,7 +19,7 @@ pub struct ExerciseFile {
     /// Numbers that are drawn for each student. Texts show one as `{{name}}`, values use it as a symbol.
     #[serde(default)]
     pub parameters: BTreeMap<String, ParameterFile>,
-    /// Where the drawn numbers enter the scenario.
+    /// Where the drawn numbers enter the scenario and the other scenes of the lesson.
     #[serde(default)]
     pub scene: Vec<PatchFile>,
     /// How many questions of each pool every student gets.
@@ -44,11 +44,13 @@ pub struct ParameterFile {
     pub default: f64,
 }
 
-/// A place of the scenario that takes a drawn number.
+/// A place of a scene that takes a drawn number.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PatchFile {
-    /// JSON pointer of a number in scene.json, such as `/bodies/0/mass`.
+    /// Another scene of the lesson, such as `reference/model.json`; without it, the scenario.
+    pub file: Option<String>,
+    /// JSON pointer of a number in that file, such as `/bodies/0/mass`.
     pub pointer: String,
     /// Expression in the parameters.
     pub value: String,

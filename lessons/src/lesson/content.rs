@@ -168,7 +168,8 @@ fn questions(
     parameters: &Parameters,
     scene: &serde_json::Value,
 ) -> Result<Exercise, LessonError> {
-    let context = BuildContext { parameters, scene, files: reader.files };
+    let patches = &sources.exercise.scene;
+    let context = BuildContext { parameters, scene, files: reader.files, patches };
     exercise::build(sources.exercise.clone(), sources.references.clone(), &context).map_err(|error| {
         let file = if error.in_reference { "reference/answers.toml" } else { "exercise.toml" };
         let line = line_of(reader.text(file, "").unwrap_or_default(), &error.question);

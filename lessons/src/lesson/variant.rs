@@ -8,7 +8,7 @@ use triad_engine::scene::{Scene, SceneError};
 use super::content::Lesson;
 use super::personal::{describe, shuffle_options};
 use crate::answers::tolerance::{distance, norm};
-use crate::exercise::{self, BuildContext, Exercise, Parameters, QuestionBody};
+use crate::exercise::{self, BuildContext, Exercise, Parameters, QuestionBody, put_numbers};
 use crate::files::ParameterFile;
 use crate::random::SeededRandom;
 use crate::seed::seed;
@@ -133,19 +133,11 @@ impl Lesson {
         let unusable = |what: String| VariantError::Unusable { what };
         let (file, references) = (self.sources.exercise.clone(), self.sources.references.clone());
         let mut lesson = self.clone();
-        for patch in &file.scene {
-            let value = parameters
-                .eval(&patch.value)
-                .map_err(|e| unusable(format!("scene {}: {e}", patch.pointer)))?;
-            let place = lesson.scene.pointer_mut(&patch.pointer).filter(|v| v.is_number());
-            let (Some(place), Some(number)) = (place, serde_json::Number::from_f64(value)) else {
-                let what = format!("scene.json has no number at {}; correct the pointer", patch.pointer);
-                return Err(unusable(what));
-            };
-            *place = serde_json::Value::Number(number);
-        }
+        let patches = &self.sources.exercise.scene;
+        put_numbers(&mut lesson.scene, None, patches, &parameters).map_err(unusable)?;
         describe(&mut lesson.scene, &self.sources.description, &parameters);
-        let context = BuildContext { parameters: &parameters, scene: &lesson.scene, files: &lesson.files };
+        let context =
+            BuildContext { parameters: &parameters, scene: &lesson.scene, files: &lesson.files, patches };
         lesson.exercise =
             exercise::build(file, references, &context).map_err(|error| unusable(error.to_string()))?;
         lesson.parameters = parameters;

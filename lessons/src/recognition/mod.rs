@@ -10,3 +10,6 @@ pub(crate) mod formula;
 mod mutation;
 pub(crate) mod quantity;
 mod values;
+
+#[cfg(test)]
+pub(crate) use mutation::slips;

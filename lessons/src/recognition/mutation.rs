@@ -48,6 +48,13 @@ pub(super) const KINDS: [Kind; 13] = [
     Kind { mistake: mistakes::OTHER_NUMBER, make: other_number, everywhere: &[] },
 ];
 
+/// Every number that one mistake of any kind leads to.
+#[cfg(test)]
+pub(crate) fn slips(node: &Node, symbols: &[f64]) -> Vec<f64> {
+    let values = KINDS.iter().flat_map(|kind| kind.values(node, symbols, &[]));
+    values.filter(|value| value.is_finite()).collect()
+}
+
 impl Kind {
     /// Every value that the expression has with one mistake of this kind; `numbers` are those of the whole question.
     pub(super) fn values(&self, node: &Node, symbols: &[f64], numbers: &[f64]) -> Vec<f64> {

@@ -171,44 +171,11 @@ fn the_lesson_on_drift_needs_stabilization() {
         let none = judged(tolerance, Some([0.0, 0.0]));
         assert_eq!((none.verdict, none.earned), (Mark::Wrong, 0.0), "{}", none.message_html);
     }
-    assert_eq!(judged(1e-8, Some([0.0, 0.0])).misconception.as_deref(), Some("drifted"));
+    let drifted = judged(1e-8, Some([0.0, 0.0]));
+    assert_eq!(drifted.misconception.as_deref(), Some("drifted"));
+    // The bob is where it belongs, and the message says so: it is the joint that has come apart.
+    let says = ["not more than the 0.001 that is allowed", "more than the 1e-8 that is allowed"];
+    assert!(says.iter().all(|part| drifted.message_html.contains(part)), "{}", drifted.message_html);
     assert_eq!(judged(1e-8, Some([2.0, 2.0])).verdict, Mark::Right);
     assert_eq!(judged(1e-8, None).verdict, Mark::Right);
-}
-
-/// Distinct draws that each lesson must be able to deal.
-const DRAWS: f64 = 200.0;
-/// Students whose numbers are compared.
-const STUDENTS: usize = 60;
-/// How much larger the largest answer to a question may be than the smallest.
-const SPREAD: f64 = 40.0;
-
-/// Every lesson deals at least two hundred sets of numbers, and nobody's is much easier: no answer vanishes, and all are of
-/// the same size.
-#[test]
-fn every_lesson_has_numbers_of_ones_own_and_all_are_equally_hard() {
-    for lesson in course().lessons() {
-        let ranges = lesson.sources.exercise.parameters.values();
-        let draws: f64 = ranges.map(|p| ((p.to - p.from) / p.step + 1e-9).floor() + 1.0).product();
-        assert!(draws >= DRAWS, "{}: {draws} draws", lesson.slug);
-        let mut seen = std::collections::BTreeSet::new();
-        let mut sizes: BTreeMap<String, Vec<f64>> = BTreeMap::new();
-        for k in 0..STUDENTS {
-            let own = lesson.variant_in(&format!("student-{k}"), "secret").unwrap();
-            seen.insert(format!("{:?}", own.parameters));
-            for question in &own.exercise.questions {
-                let QuestionBody::Quantity(q) = &question.body else { continue };
-                if !q.tolerance.is_exact() {
-                    let size = crate::answers::tolerance::norm(&q.reference);
-                    sizes.entry(question.id.clone()).or_default().push(size);
-                }
-            }
-        }
-        // Of 200 equally likely sets 60 students see about 52.
-        assert!(seen.len() >= 46, "{}: {} of {STUDENTS}", lesson.slug, seen.len());
-        for (id, sizes) in sizes {
-            let (least, most) = sizes.iter().fold((f64::MAX, 0.0f64), |(a, b), x| (a.min(*x), b.max(*x)));
-            assert!(least > 0.0 && most <= SPREAD * least, "{}/{id}: {least} to {most}", lesson.slug);
-        }
-    }
 }

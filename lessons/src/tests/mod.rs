@@ -7,6 +7,7 @@ mod golden_variants;
 mod kinds;
 mod minutes;
 mod order;
+mod own_numbers;
 mod pools;
 mod predictions;
 mod properties;
@@ -244,6 +245,32 @@ fn findings_of_the_check_name_place_and_remedy() {
         ("lesson.md", "## A hinge", "Of {{b}} m.\n\n## A hinge", "lesson.md:1: {{b}} is no parameter"),
         ("lesson.md", "## A hinge", "Of {{m}} kg.\n\n## A hinge", "is the same for everybody"),
         ("scene.json", "\"description\": \"", "\"description\": \"{{b}}: ", "{{b}} is no parameter"),
+        // Guessing and copying.
+        (
+            "exercise.toml",
+            "Nothing: the multipliers are the same, and so is the force.",
+            "All of the above.",
+            "option a says \u{201c}the above\u{201d}",
+        ),
+        ("exercise.toml", "stays as is.", "stays as it is, as it must.", "the longest wrong one"),
+        (
+            "exercise.toml",
+            "kind = \"number\"\npoints = 2",
+            "kind = \"number\"\npoints = 12",
+            "choices and counts have 14 of 22 points",
+        ),
+        (
+            "exercise.toml",
+            "kind = \"number\"\npoints = 2",
+            "kind = \"number\"\npoints = 12",
+            "answers that are the same for everybody have 14 of 22 points",
+        ),
+        (
+            "exercise.toml",
+            "[[scene]]\n",
+            "[[scene]]\nfile = \"scenes/x.json\"\n",
+            "[[scene]] names scenes/x.json, which is not there",
+        ),
         // Nobody need calculate what a misconception leads to.
         ("wrong/other-side.toml", "14.21", "15.21", "other-side leads to (14.21093, 10.89654, 0) N"),
     ] {

@@ -319,7 +319,7 @@ fn run_result(run: &TuningFeedback) -> String {
     });
     format!(
         "Error {error:.1e}, {} the {} that is allowed. {constraints}{} evaluations, {} the budget of {budget}.",
-        than(run.is_precise()),
+        than(error <= run.allowed),
         plain(run.allowed),
         run.evaluations,
         than(run.is_cheap()),
