@@ -36,6 +36,10 @@ pub(crate) fn recognise(question: &Formula, formula: &Expression, seed: &str) ->
     if [2.0, 0.5].iter().any(|k| typed.iter().zip(&right).all(|(x, r)| agree(*x, k * r))) {
         return plainly(mistakes::FACTOR_TWO);
     }
+    let whole = |power: fn(f64) -> f64| typed.iter().zip(&right).all(|(x, r)| agree(*x, power(*r)));
+    if whole(|r| r * r) || whole(f64::sqrt) {
+        return plainly(mistakes::POWER);
+    }
     // A formula that is hardly defined anywhere cannot be compared.
     if typed.iter().filter(|x| x.is_finite()).count() < 2 {
         return None;

@@ -180,6 +180,7 @@ fn gravity_of_one(place: &Place) -> Option<f64> {
     (*place.node == Node::Number(G)).then_some(1.0)
 }
 
+/// Powers that are there, symbols, and what is projected twice: nobody squares an angle or a sum in which no square stands.
 fn power(place: &Place, _: &[f64], list: &mut Vec<f64>) {
     let [a, b] = place.parts;
     match place.node {
@@ -189,13 +190,8 @@ fn power(place: &Place, _: &[f64], list: &mut Vec<f64>) {
             list.extend(raised.into_iter().chain(roots).map(|b| joined('^', a, b)));
             list.extend([a, a * b, a / b, joined('^', b, a)]);
         }
-        Node::Binary('*' | '/' | '+' | '-', ..) => {
-            list.extend([joined('^', place.value, 2.0), joined('^', place.value, 0.5)]);
-        }
         Node::Call(Function::Sqrt, _) => list.extend([a, a * a, joined('^', a, 0.25)]),
-        Node::Call(function, _) if TRIGONOMETRIC.contains(function) => {
-            list.extend([place.value * place.value, joined('^', place.value, 0.5)]);
-        }
+        Node::Call(function, _) if TRIGONOMETRIC.contains(function) => list.push(place.value * place.value),
         Node::Symbol(_) => list.extend([place.value * place.value, joined('^', place.value, 0.5)]),
         Node::Number(_) | Node::Negative(_) | Node::Call(..) | Node::Binary(..) => {}
     }
@@ -304,24 +300,6 @@ pub(super) fn part_results(node: &Node, symbols: &[f64]) -> Vec<f64> {
     }
     list
 }
-
-/// Values with two mistakes of a count in them: something left out, taken twice or with another sign.
-pub(super) fn miscounted(node: &Node, symbols: &[f64]) -> Vec<f64> {
-    let kinds = || KINDS.iter().filter(|kind| COUNTING.contains(&kind.mistake));
-    let mut list: Vec<f64> = kinds().flat_map(|kind| kind.values(node, symbols, &[])).collect();
-    if let Node::Binary(operator @ ('+' | '-'), a, b) = node {
-        let (left, right) = (miscounted(a, symbols), miscounted(b, symbols));
-        for x in left.iter().chain([&a.eval(symbols)]) {
-            list.extend(right.iter().map(|y| joined(*operator, *x, *y)));
-        }
-        list.truncate(MOST_VALUES);
-    }
-    list
-}
-
-/// What goes wrong in a count.
-const COUNTING: [&Mistake; 4] =
-    [mistakes::TERM_MISSING, mistakes::TERM_SIGN, mistakes::PART_TWICE, mistakes::FACTOR_MISSING];
 
 fn other_number(place: &Place, numbers: &[f64], list: &mut Vec<f64>) {
     if matches!(place.node, Node::Number(_) | Node::Symbol(_)) {

@@ -1,7 +1,7 @@
 //! The usual mistake behind a wrong number, vector or matrix.
 
 use super::fit::Fit;
-use super::mutation::{KINDS, miscounted, part_results};
+use super::mutation::{KINDS, part_results};
 use super::values;
 use crate::answers::tolerance::norm;
 use crate::exercise::QuantityQuestion;
@@ -48,26 +48,25 @@ pub(crate) fn with_one_more_slip(
 /// The usual mistake that leads to these values, if there is one. `rounding` is what the digits may have changed.
 pub(crate) fn recognise(question: &QuantityQuestion, typed: &[f64], rounding: &[f64]) -> Option<Recognised> {
     let fit = Fit::new(typed, rounding, &question.reference, question.tolerance);
-    if let Some(mistake) = values::certain(&fit, question.shape, question.size[1]) {
-        return Some(Recognised::plainly(mistake));
-    }
     if question.tolerance.is_exact() && typed.iter().any(|x| x.fract() != 0.0) && whole(&question.reference) {
         return Some(Recognised::plainly(mistakes::NO_WHOLE_NUMBER));
     }
-    let shown = question.derivation.worlds.answers().iter();
-    let in_unit = |values: &[f64]| values.iter().map(|x| x / question.unit.factor).collect::<Vec<_>>();
-    let mut worlds = shown.filter(|(_, values)| norm(values) > 0.0);
-    if let Some((mistake, _)) = worlds.find(|(_, values)| fit.is(&in_unit(values))) {
+    if is_count(question) {
+        return Some(Recognised::plainly(miscount(question, &fit)));
+    }
+    let certain = values::certain(&fit, question.shape, question.size[1]);
+    if let Some(mistake) = certain.or_else(|| wrong_model(question, &fit)) {
         return Some(Recognised::plainly(mistake));
     }
-    if let Some(mistake) = one_slip(question, &fit).or_else(|| values::factor(&fit, question.shape)) {
+    if let Some(mistake) = one_slip(question, &fit, |_| true).or_else(|| values::factor(&fit, question.shape))
+    {
         return Some(Recognised::plainly(mistake));
     }
-    if let Some(mistake) = given(question, &fit).or_else(|| miscount(question, typed)) {
+    if let Some(mistake) = given(question, &fit) {
         return Some(Recognised::plainly(mistake));
     }
     let opposite: Vec<f64> = typed.iter().map(|x| -x).collect();
-    if let Some(mistake) = one_slip(question, &fit.with(&opposite)) {
+    if let Some(mistake) = one_slip(question, &fit.with(&opposite), |_| true) {
         return Some(Recognised { mistake, and_sign: true });
     }
     values::vague(&fit, question.shape).map(Recognised::plainly)
@@ -77,14 +76,26 @@ fn whole(values: &[f64]) -> bool {
     values.iter().all(|x| x.fract() == 0.0)
 }
 
-/// One mistake in the reference's expressions: of one kind in all components that are wrong.
-fn one_slip(question: &QuantityQuestion, fit: &Fit) -> Option<&'static Mistake> {
+/// The wrong model whose run shows this.
+fn wrong_model(question: &QuantityQuestion, fit: &Fit) -> Option<&'static Mistake> {
+    let shown = question.derivation.worlds.answers().iter();
+    let in_unit = |values: &[f64]| values.iter().map(|x| x / question.unit.factor).collect::<Vec<_>>();
+    let mut worlds = shown.filter(|(_, values)| norm(values) > 0.0);
+    worlds.find(|(_, values)| fit.is(&in_unit(values))).map(|(mistake, _)| *mistake)
+}
+
+/// One mistake in the reference's expressions: of one kind, among those that may be tried, in all components that are wrong.
+fn one_slip(
+    question: &QuantityQuestion,
+    fit: &Fit,
+    tried: impl Fn(&Mistake) -> bool,
+) -> Option<&'static Mistake> {
     let (entries, symbols) = (&question.derivation.entries, &question.derivation.symbols);
     if entries.len() != fit.values.len() {
         return None;
     }
     let wrong: Vec<usize> = (0..fit.values.len()).filter(|k| !fit.component_right(*k)).collect();
-    let found = KINDS.iter().find(|kind| {
+    let found = KINDS.iter().filter(|kind| tried(kind.mistake)).find(|kind| {
         // An answer that is nearly right has lost digits rather than a term.
         (kind.mistake == mistakes::OTHER_GRAVITY || !fit.is_near())
             && wrong.iter().all(|k| {
@@ -113,17 +124,28 @@ fn given(question: &QuantityQuestion, fit: &Fit) -> Option<&'static Mistake> {
     derivation.given.iter().any(factor).then_some(mistakes::GIVEN_FACTOR)
 }
 
-/// One too many or too few, or two slips of a count.
-fn miscount(question: &QuantityQuestion, typed: &[f64]) -> Option<&'static Mistake> {
-    let (true, [x], [right]) = (question.tolerance.is_exact(), typed, question.reference.as_slice()) else {
-        return None;
-    };
-    if (x - right).abs() == 1.0 {
-        return Some(mistakes::OFF_BY_ONE);
+/// Whether something is counted: an exact answer to which only sums and products lead.
+fn is_count(question: &QuantityQuestion) -> bool {
+    question.tolerance.is_exact() && question.derivation.entries.iter().all(adds_up)
+}
+
+fn adds_up(node: &Node) -> bool {
+    match node {
+        Node::Number(_) | Node::Symbol(_) => true,
+        Node::Negative(a) => adds_up(a),
+        Node::Binary('+' | '-' | '*', a, b) => adds_up(a) && adds_up(b),
+        Node::Binary(..) | Node::Call(..) => false,
     }
-    let derivation = &question.derivation;
-    let tried = derivation.entries.iter().flat_map(|node| miscounted(node, &derivation.symbols));
-    let of_given = derivation.given.iter().flat_map(|a| [*a, right - a, right + a]);
-    let sum = derivation.entries.iter().any(|node| matches!(node, Node::Binary('+' | '-', ..)));
-    (sum || tried.chain(of_given).any(|value| value == *x)).then_some(mistakes::COUNT)
+}
+
+/// What went wrong with a count. Small whole numbers meet one another by chance: no factor, power or angle is looked for.
+fn miscount(question: &QuantityQuestion, fit: &Fit) -> &'static Mistake {
+    if fit.values.iter().all(|x| *x == 0.0) {
+        return mistakes::ZERO;
+    }
+    let terms = [mistakes::TERM_MISSING, mistakes::TERM_SIGN];
+    let known =
+        wrong_model(question, fit).or_else(|| one_slip(question, fit, |mistake| terms.contains(&mistake)));
+    let by_one = fit.values.iter().zip(fit.reference).all(|(x, right)| (x - right).abs() == 1.0);
+    known.unwrap_or(if by_one { mistakes::OFF_BY_ONE } else { mistakes::COUNT })
 }

@@ -233,6 +233,32 @@ fn typical_mistakes_get_words_of_their_own() {
     assert!(share >= RECOGNISED && shares[0] >= WRITTEN, "{share} {shares:?}");
 }
 
+/// Small whole numbers meet by chance: a wrong count is not told of squares, halves or angles.
+#[test]
+fn a_wrong_count_gets_the_words_of_counts() {
+    let counting =
+        ["zero", "off-by-one", "count", "term-missing", "term-sign", "opposite-sign", "power-of-ten"];
+    let mut strange = Vec::new();
+    for lesson in course().lessons() {
+        for question in &lesson.exercise.questions {
+            let QuestionBody::Quantity(body) = &question.body else { continue };
+            if !body.tolerance.is_exact() || question.id == "halving" {
+                continue;
+            }
+            let own = |code: &str| body.misconceptions.iter().any(|m| m.id == code);
+            for value in (0..40).map(f64::from) {
+                let judged = judge_values(body, &[value]).unwrap();
+                let code = judged.misconception.unwrap_or_default();
+                let known = own(&code) || code == "other-count" || counting.contains(&&*code);
+                if judged.mark == Mark::Wrong && !known {
+                    strange.push(format!("{}.{} {value}: {code}", lesson.slug, question.id));
+                }
+            }
+        }
+    }
+    assert!(strange.is_empty(), "{}", strange.join("\n"));
+}
+
 /// What somebody just guesses is not explained by a mistake that nobody made, as a rule.
 #[test]
 fn random_numbers_are_seldom_taken_for_a_mistake() {
