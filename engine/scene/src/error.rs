@@ -90,7 +90,12 @@ pub(crate) fn syntax_error(error: &serde_path_to_error::Error<serde_json::Error>
 /// The error of a reader that knows line and column only.
 pub(crate) fn plain_error(error: &serde_json::Error, pointer: &str) -> SceneError {
     let text = error.to_string();
-    let reason = text.rsplit_once(" at line ").map_or(text.clone(), |(reason, _)| reason.to_owned());
+    let reason = text.rsplit_once(" at line ").map_or(text.as_str(), |(reason, _)| reason);
+    // The place is where the reader noticed it: the brace behind all that is there.
+    let reason = match reason.strip_prefix("missing field ") {
+        Some(key) => format!("{key} is missing: write it between the braces that end here"),
+        None => reason.to_owned(),
+    };
     SceneError::Syntax {
         path: "scene".to_owned(),
         pointer: pointer.to_owned(),

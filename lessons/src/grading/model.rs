@@ -96,13 +96,14 @@ fn watched(task: &ModelTask, scene: &Scene) -> Result<Vec<DemandResult>, Measure
     let end = times.last().copied().unwrap_or(0.0);
     let [reference, _] = reference_scenes(&task.reference, end);
     let own = run(&reference, &times, task.watches(), &mut start(&reference)?)?;
+    let own = own.into_iter().collect::<Result<Vec<_>, _>>()?;
     let mut simulation = Simulation::new(scene)?;
     simulation.set_step_limit(MAX_STEPS);
     let given = run(scene, &times, task.watches(), &mut simulation);
     let result = |(k, watch): (usize, &WatchFile)| {
-        let (met, stopped) = match &given {
-            Err(problem) => (false, Some(problem.clone())),
-            Ok(given) => (close(&given[k], &own[k], watch.tolerance), None),
+        let (met, stopped) = match given.as_ref().map(|given| &given[k]) {
+            Err(problem) | Ok(Err(problem)) => (false, Some(problem.clone())),
+            Ok(Ok(given)) => (close(given, &own[k], watch.tolerance), None),
         };
         let (what, feedback) = (watch.what.clone(), watch.feedback.clone());
         DemandResult { demand: Demand::Watch { number: k + 1, what, feedback, stopped }, met }
@@ -110,18 +111,25 @@ fn watched(task: &ModelTask, scene: &Scene) -> Result<Vec<DemandResult>, Measure
     Ok(task.watches().iter().enumerate().map(result).collect())
 }
 
+/// What one watch sees at its times; why not, where the scene lacks what it looks at.
+type Seen = Result<Vec<Vec<f64>>, MeasureError>;
+
 /// What each watch sees, at its own times.
 fn run(
     scene: &Scene,
     times: &[f64],
     watches: &[WatchFile],
     simulation: &mut Simulation,
-) -> Result<Vec<Vec<Vec<f64>>>, MeasureError> {
-    let mut seen = vec![Vec::new(); watches.len()];
+) -> Result<Vec<Seen>, MeasureError> {
+    let mut seen: Vec<Seen> = vec![Ok(Vec::new()); watches.len()];
     for t in times {
         simulation.advance_to(*t)?;
         for (seen, watch) in seen.iter_mut().zip(watches).filter(|(_, w)| w.times.contains(t)) {
-            seen.push(measure(scene, simulation, &watch.measured)?);
+            match (seen.as_mut(), measure(scene, simulation, &watch.measured)) {
+                (Ok(seen), Ok(values)) => seen.push(values),
+                (Ok(_), Err(problem)) => *seen = Err(problem),
+                (Err(_), _) => {}
+            }
         }
     }
     Ok(seen)

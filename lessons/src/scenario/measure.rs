@@ -17,8 +17,8 @@ pub enum MeasureError {
     /// The measurement names nothing.
     #[error("measured names neither a count, the energy, a joint nor a body")]
     Nothing,
-    /// A joint that the scene does not have.
-    #[error("there is no joint {0}")]
+    /// A joint or driver that the scene does not have.
+    #[error("there is no joint or driver {0}")]
     NoJoint(String),
     /// A body that the scene does not have.
     #[error("there is no body {0}")]

@@ -39,7 +39,10 @@ fn what_cannot_be_given_is_found() {
         (|one| one.points = -1.0, "points are negative"),
         (|one| one.id = "Pull".to_owned(), "its id is"),
         (|one| one.measured.as_mut().unwrap().component = None, "a vector is measured"),
-        (|one| one.measured.as_mut().unwrap().joint = Some("pim".to_owned()), "there is no joint pim"),
+        (
+            |one| one.measured.as_mut().unwrap().joint = Some("pim".to_owned()),
+            "there is no joint or driver pim",
+        ),
     ] {
         let found = faults(change);
         assert!(found.iter().any(|fault| fault.contains(expected)), "{expected}: {found:?}");

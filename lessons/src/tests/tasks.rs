@@ -271,7 +271,19 @@ fn a_scene_is_judged_by_what_it_does() {
     };
     assert!(demands.iter().any(|d| !d.met && matches!(d.demand, Demand::Watch { stopped: None, .. })));
 
+    // Who gives the guide another name loses what is seen at the guide, not the motion.
+    let mut renamed = scene.clone();
+    let joints = renamed["joints"].as_array_mut().unwrap();
+    joints.iter_mut().find(|joint| joint["name"] == "guide").unwrap()["name"] = "rail".into();
+    let renamed = judged(&lesson, "scene", file(renamed.to_string()));
+    assert!(renamed.earned > 0.5 * renamed.possible, "{}", renamed.message_html);
+    assert!(renamed.message_html.contains("There is no joint or driver guide."), "{}", renamed.message_html);
+
     let why = |text: String| invalid(judgement(&lesson, "scene", file(text)));
+    let mut nameless = scene.clone();
+    nameless.as_object_mut().unwrap().remove("name");
+    let nameless = why(nameless.to_string()).to_string();
+    assert!(nameless.contains("`name` is missing: write it between the braces"), "{nameless}");
     assert!(matches!(why("{".to_owned()), InvalidAnswer::Model(InvalidModel::Scene(_))));
     let hinge = why(scene.to_string().replace("\"universal\"", "\"hinge\""));
     assert!(

@@ -14,7 +14,7 @@ use crate::files::EquationPart;
 use crate::recognition::quantity::Recognised;
 use crate::rendering::html::escape;
 use crate::rendering::markdown::render_short;
-use crate::text::plain;
+use crate::text::{plain, sentence};
 
 /// Names that a message lists.
 const MAX_NAMES: usize = 4;
@@ -234,7 +234,7 @@ fn demand(result: &DemandResult) -> String {
             (format!("a {kind} joint is used"), format!("<p>Your scene has {found} of this type.</p>"))
         }
         Demand::Watch { what, stopped: Some(problem), .. } => {
-            (what.clone(), format!("<p>{}.</p>", escape(&problem.to_string())))
+            (what.clone(), format!("<p>{}</p>", escape(&sentence(&problem.to_string()))))
         }
         Demand::Watch { what, feedback, stopped: None, .. } => (what.clone(), render_short(feedback)),
     };

@@ -164,7 +164,7 @@ pub(crate) enum InvalidModel {
     Bodies { bodies: usize, most: usize },
     #[error("The scene has {connections} joints, drivers and loads; that is more than is run here.")]
     Connections { connections: usize },
-    #[error("The scene is refused: {0}.")]
+    #[error("The scene is refused: {why}. {hint}", why = .0, hint = .0.hint())]
     Refused(#[from] Box<EngineError>),
     #[error("The author's scene does not run: {0}.")]
     Reference(MeasureError),
