@@ -2,7 +2,7 @@
 //! result after a restart of the server; then the workbench by keyboard, in a lecture and in trouble; then the drawing,
 //! without a graphics card and with busy cores; then the first page, frames in other sites, and what is taken along; then
 //! the documentation; then a free-body diagram by mouse and by keyboard; then what lessons need from each other; then a class as its
-//! teacher runs it. What it saw is kept in `tests/output/`.
+//! teacher runs it, and the account with which they sign in. What it saw is kept in `tests/output/`.
 
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
@@ -10,7 +10,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};
-use triad_tests::program::{self, Server, triad};
+use triad_tests::program::{self, Server, free_port, triad};
 use triad_tests::root;
 
 /// Where Debian's package puts the browser.
@@ -140,6 +140,22 @@ fn a_class_from_the_setup_link_to_the_mistakes_of_its_students() {
     visit("class.mjs", |home| {
         let (server, link) = Server::start_class(home);
         (server, vec![link.into()])
+    });
+}
+
+#[test]
+fn people_who_teach_sign_in_with_the_account_of_their_institution_below_a_path() {
+    visit("oidc.mjs", |home| {
+        // Each has to know where the other one is.
+        let (port, institution) = (free_port().to_string(), free_port().to_string());
+        let url = format!("http://127.0.0.1:{port}/triad");
+        let issuer = format!("http://127.0.0.1:{institution}");
+        let mut command = Command::new(triad());
+        command.args(["serve", "--class", "--port", &port, "--url", &url, "--base-path", "/triad"]);
+        command.args(["--oidc-issuer", &issuer, "--oidc-client-id", "triad", "--oidc-name", "the school"]);
+        command.args(["--database", "grades.db"]).current_dir(home);
+        let (server, link) = Server::of_class(&mut command);
+        (server, vec![link.into(), institution.into()])
     });
 }
 

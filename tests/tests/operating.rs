@@ -5,7 +5,7 @@
 
 use std::fs;
 use std::io::{Read, Write};
-use std::net::{TcpListener, TcpStream};
+use std::net::TcpStream;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 use triad_tests::postgres::Postgres;
-use triad_tests::program::{HANG, Reply, Server, admin, ask, assert_problem, run_json, triad};
+use triad_tests::program::{HANG, Reply, Server, admin, ask, assert_problem, free_port, run_json, triad};
 use triad_tests::root;
 
 /// `triad` with these words, in an environment of its own.
@@ -327,11 +327,6 @@ impl Drop for Proxy {
         let _ = Command::new("kill").args(["-TERM", &self.0.id().to_string()]).status();
         let _ = self.0.wait();
     }
-}
-
-/// A free port, for a program that cannot say which one it took.
-fn free_port() -> u16 {
-    TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port()
 }
 
 #[test]

@@ -26,6 +26,9 @@ use crate::policy::Moment;
 use crate::problem::Problem;
 use crate::store::{CLASS, LIFE, Role};
 
+/// Where a page of ours that refuses leads to. It stands at `/oidc/…`, wherever that is.
+const WAY_IN: &str = "<p><a href=\"../join\">To the ways in</a></p>";
+
 /// Pages between the provider and ours.
 pub(super) fn pages() -> Router<App> {
     Router::new().route("/oidc/login", get(login)).route(BACK, get(back))
@@ -61,7 +64,7 @@ async fn login(State(app): State<App>, Peer(address): Peer, headers: HeaderMap) 
         ];
         Ok((StatusCode::FOUND, heads).into_response())
     };
-    answer.await.unwrap_or_else(|problem: Problem| page::refused(problem, &headers))
+    answer.await.unwrap_or_else(|problem: Problem| page::refused(problem, &headers, WAY_IN))
 }
 
 /// Somebody comes from the provider: they are in, or their account is connected.
@@ -103,7 +106,7 @@ async fn back(
         answer.headers_mut().append(header::SET_COOKIE, given(&app, &name, "", 0)?);
         Ok(answer)
     };
-    answer.await.unwrap_or_else(|problem: Problem| page::refused(problem, &headers))
+    answer.await.unwrap_or_else(|problem: Problem| page::refused(problem, &headers, WAY_IN))
 }
 
 /// Where the browser goes next.

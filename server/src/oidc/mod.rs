@@ -163,7 +163,7 @@ impl Oidc {
         }
         if let Some(error) = &back.error {
             let said = back.error_description.as_deref().unwrap_or_default();
-            return Err(Refusal::Reported(shortened(&format!("{error} {said}"))));
+            return Err(Refusal::Reported(shortened(format!("{error} {said}").trim_end())));
         }
         Ok((begun, (name, secret)))
     }
@@ -223,7 +223,7 @@ impl Oidc {
         let given: Given = serde_json::from_slice(&answer.body).unwrap_or_default();
         if let Some(error) = given.error.filter(|_| !answer.status.is_success()) {
             let said = given.error_description.unwrap_or_default();
-            return Err(Refusal::Code(shortened(&format!("{error} {said}"))));
+            return Err(Refusal::Code(shortened(format!("{error} {said}").trim_end())));
         }
         if !answer.status.is_success() {
             return Err(self.failed(format!("it answers {}", answer.status.as_u16())));

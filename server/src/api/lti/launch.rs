@@ -56,7 +56,7 @@ pub(super) async fn launch(
             other => Err(Problem::from(Refusal::Message(shortened(other)))),
         }
     };
-    answer.await.unwrap_or_else(|problem| page::refused(problem, &headers))
+    answer.await.unwrap_or_else(|problem| page::refused(problem, &headers, ""))
 }
 
 /// The launch that this answers, in the browser in which it was begun.
@@ -253,5 +253,5 @@ pub(super) async fn choose(
         let fields = [("JWT", token.as_str())];
         Ok::<_, Problem>(page::sent_on("Back to your course", &choosing.return_url, &fields, "Continue"))
     };
-    answer.await.unwrap_or_else(|problem| page::refused(problem, &headers))
+    answer.await.unwrap_or_else(|problem| page::refused(problem, &headers, ""))
 }

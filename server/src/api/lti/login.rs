@@ -38,7 +38,7 @@ pub(super) async fn by_address(
     headers: HeaderMap,
     Query(login): Query<Login>,
 ) -> Response {
-    begin(&app, &headers, &login).await.unwrap_or_else(|problem| page::refused(problem, &headers))
+    begin(&app, &headers, &login).await.unwrap_or_else(|problem| page::refused(problem, &headers, ""))
 }
 
 pub(super) async fn by_form(
@@ -46,7 +46,7 @@ pub(super) async fn by_form(
     headers: HeaderMap,
     Form(login): Form<Login>,
 ) -> Response {
-    begin(&app, &headers, &login).await.unwrap_or_else(|problem| page::refused(problem, &headers))
+    begin(&app, &headers, &login).await.unwrap_or_else(|problem| page::refused(problem, &headers, ""))
 }
 
 async fn begin(app: &App, headers: &HeaderMap, login: &Login) -> Result<Response, Problem> {

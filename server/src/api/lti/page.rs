@@ -70,18 +70,26 @@ fn respond(status: StatusCode, title: &str, body: &str, more: &str) -> Response 
     (status, headers, text).into_response()
 }
 
-/// A refusal for whoever asks: a page for people, a document for programs.
-pub(in crate::api) fn refused(problem: Problem, headers: &HeaderMap) -> Response {
+/// A refusal for whoever asks: a page for people, a document for programs. `more` is HTML: where to go from there.
+pub(in crate::api) fn refused(problem: Problem, headers: &HeaderMap, more: &str) -> Response {
     let accepts = headers.get(header::ACCEPT).and_then(|value| value.to_str().ok()).unwrap_or_default();
-    if problem.status().is_server_error() || !accepts.contains("text/html") {
-        return problem.into_response();
-    }
     let document = problem.document();
+    // It is written to the log and counted, whoever reads it.
+    let told = problem.into_response();
+    if !accepts.contains("text/html") {
+        return told;
+    }
+    let mut why = document.detail.chars();
+    let first = why.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+    let trace = if told.status().is_server_error() { document.trace_id.as_str() } else { "" };
     let body = format!(
-        "<p>{}.</p><p>What to do: {}.</p><p class=\"muted\">{}</p>",
-        escaped(&document.detail),
+        "<p>{}.</p><p>What to do: {}.</p>{more}<p class=\"muted\">{} {}</p>",
+        escaped(&(first + why.as_str())),
         escaped(&document.hint),
-        escaped(&document.code)
+        escaped(&document.code),
+        escaped(trace)
     );
-    page(problem.status(), "This did not work", &body)
+    let mut page = page(told.status(), "This did not work", &body);
+    page.extensions_mut().extend(told.into_parts().0.extensions);
+    page
 }
