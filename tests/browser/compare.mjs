@@ -137,11 +137,22 @@ async function steps() {
   await at(0);
   await page.locator("#steps").getByRole("button", { name: "Open the Jacobian" }).press("Enter");
   assert.equal(await page.evaluate(() => document.activeElement?.textContent), "Jacobian", "the reader is at the panel");
+  // Read-out and matrix are seen together with the mechanism, without scrolling.
+  await page.locator("canvas.matrix").waitFor();
+  const seen = async (what) => page.locator(what).first().boundingBox();
+  const [stage, told, matrix] = await Promise.all(["canvas.drawing", ".inspector .readout:visible", "canvas.matrix"].map(seen));
+  assert(stage.y >= 0 && stage.y < 100 && told.y + told.height <= 900 && matrix.y < 760, JSON.stringify({ stage, told, matrix }));
   await page.goto(`${address}/lessons/work-and-precision`);
   await at(0);
   await page.locator("#steps").getByRole("button", { name: "All numbers of this scene" }).click();
   await page.getByLabel("Find a number of the scene").waitFor();
   await page.screenshot({ path: join(pictures, "steps.png") });
+  // On a phone the mechanism of a scene is a press away from its text.
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.goto(`${address}/scenes/simple-pendulum`);
+  await at(0);
+  await page.getByRole("navigation", { name: "Parts of this page" }).getByRole("link", { name: "Mechanism" }).click();
+  await until("the mechanism is in sight", () => drawing.boundingBox(), ({ y, height }) => y >= 0 && y + height < 844);
   say("steps of a lesson are pressed");
 }
 

@@ -63,13 +63,11 @@ class LessonPage {
   parts(): HTMLElement[] {
     return [
       h("div", { class: "lesson" }, this.text, this.bench, this.exercise),
-      h(
-        "nav",
-        { class: "jump", "aria-label": t("Parts of this lesson") },
-        h("a", { href: "#text" }, t("Text")),
-        h("a", { href: "#mechanism" }, t("Mechanism")),
-        h("a", { href: "#exercise" }, t("Exercise")),
-      ),
+      jumpBar(t("Parts of this lesson"), {
+        text: t("Text"),
+        mechanism: t("Mechanism"),
+        exercise: t("Exercise"),
+      }),
     ];
   }
 
@@ -168,6 +166,15 @@ async function showNeighbours(
       link(t("Lesson before"), lessons[at - 1]),
       link(t("Next lesson"), lessons[at + 1]),
     ),
+  );
+}
+
+/** On narrow screens: links to the parts of a page, by their ids. */
+export function jumpBar(label: string, parts: Record<string, string>): HTMLElement {
+  return h(
+    "nav",
+    { class: "jump", "aria-label": label },
+    ...Object.entries(parts).map(([id, name]) => h("a", { href: `#${id}` }, name)),
   );
 }
 

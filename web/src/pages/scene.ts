@@ -13,7 +13,7 @@ import type { SharedView } from "../session/shared-view";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { type WorkbenchOptions, workbench } from "../workbench/workbench";
-import { workbenchPlaceholder } from "./lesson";
+import { jumpBar, workbenchPlaceholder } from "./lesson";
 import { OWN_SCENE } from "./scenes";
 
 /** A scene of one's own begins as this built-in one. */
@@ -40,7 +40,8 @@ export function lessonScenePage(outlet: HTMLElement, params: string[]): Page {
 
 function open(outlet: HTMLElement, subject: Subject): Page {
   const page = new ScenePage(subject);
-  outlet.append(page.root);
+  const bar = jumpBar(t("Parts of this page"), { text: t("Text"), mechanism: t("Mechanism") });
+  outlet.append(page.root, bar);
   return { title: subject.own ? t("Your own scene") : subject.name, dispose: () => page.dispose() };
 }
 
@@ -100,7 +101,7 @@ class ScenePage {
       : h("a", { href: "/scenes" }, t("Scenes"));
     return h(
       "article",
-      { class: "reading is-editor" },
+      { class: "reading is-editor", id: "text" },
       h("header", { class: "lesson-head" }, h("p", { class: "lesson-kicker" }, back), this.title, this.about),
       h(
         "div",

@@ -47,9 +47,9 @@ export class MatrixTab implements Panel {
   );
   private readonly explained = h("p", { class: "help" });
   private readonly about = h("p", { class: "when" });
-  private readonly redundant = h("p", { class: "when", hidden: true });
+  private readonly redundant = h("ul", { class: "when redundant-rows", hidden: true });
   private readonly trouble = h("div");
-  private readonly readout = h("output", { class: "readout", "aria-live": "polite" });
+  private readonly readout = h("output", { class: "readout stays", "aria-live": "polite" });
   private readonly picture = new MatrixPicture(
     (cell) => {
       this.cell = cell;
@@ -108,12 +108,17 @@ export class MatrixTab implements Panel {
         "div",
         { class: "switches" },
         h("label", { class: "switch" }, h("span", null, t("Matrix")), this.select),
+        this.about,
       ),
+      this.trouble,
+      this.picture.root,
+      // Stays in sight while the matrix is; what explains it stands below, so that both are seen with the mechanism.
+      this.readout,
+      this.redundant,
       h(
         "div",
         { class: "matrix-head" },
         this.explained,
-        this.about,
         h(
           "ul",
           { class: "legend" },
@@ -125,10 +130,6 @@ export class MatrixTab implements Panel {
           swatch("is-redundant", t("too many rows")),
         ),
       ),
-      this.redundant,
-      this.trouble,
-      this.readout,
-      this.picture.root,
       this.list,
     );
   }
@@ -238,16 +239,18 @@ function showRedundant(place: HTMLElement, value: Jacobian | SymmetricMatrix): v
   place.hidden = sets.length === 0;
   if (!("columns" in value)) return;
   place.replaceChildren(
-    h("b", null, t("Too many:")),
-    " ",
-    sets
-      .map((set) => {
-        const names = set.rows.map((row) => value.rows[row] ?? "");
-        return set.rows.length === set.dependent
-          ? names.join(", ")
-          : t("{dependent} of {names}", { dependent: set.dependent, names: names.join(", ") });
-      })
-      .join("; "),
-    ".",
+    ...sets.map(({ rows, dependent: n }) => {
+      const names = rows.map((row) => value.rows[row] ?? "").join(", ");
+      return h(
+        "li",
+        null,
+        rows.length === n
+          ? t("This row is redundant: {names}. | These {n} rows are redundant: {names}.", { n, names })
+          : t(
+              "One of these {rows} rows is redundant: {names}. | {n} of these {rows} rows are redundant: {names}.",
+              { n, rows: rows.length, names },
+            ),
+      );
+    }),
   );
 }

@@ -85,7 +85,7 @@ export class ParameterRow {
             class: "help",
             title: goesOn ? t("The run goes on from where it stands") : t("The run starts over"),
           },
-          goesOn ? t("goes on") : t("starts over"),
+          goesOn ? t("changes at once") : t("restarts the run"),
         ),
       ),
       h(

@@ -116,8 +116,10 @@ export const inspector = {
   "at {time}.": "bei {time}.",
   "{own} entries on and below the diagonal": "{own} Einträge auf und unter der Diagonale",
   "{fill} more by fill": "{fill} weitere durch Auffüllung",
-  "Too many:": "Zu viel:",
-  "{dependent} of {names}": "{dependent} von {names}",
+  "This row is redundant: {names}. | These {n} rows are redundant: {names}.":
+    "Diese Zeile ist überzählig: {names}. | Diese {n} Zeilen sind überzählig: {names}.",
+  "One of these {rows} rows is redundant: {names}. | {n} of these {rows} rows are redundant: {names}.":
+    "Eine dieser {rows} Zeilen ist überzählig: {names}. | {n} dieser {rows} Zeilen sind überzählig: {names}.",
   "Chosen by the engine": "Vom Rechenwerk gewählt",
   "Dormand and Prince, order 8": "Dormand und Prince, Ordnung 8",
   "Dormand and Prince, order 5": "Dormand und Prince, Ordnung 5",
@@ -145,8 +147,8 @@ export const inspector = {
   "back to {initial}": "zurück zu {initial}",
   "The run goes on from where it stands": "Der Lauf geht weiter, wo er steht",
   "The run starts over": "Der Lauf beginnt neu",
-  "goes on": "geht weiter",
-  "starts over": "beginnt neu",
+  "changes at once": "wirkt sofort",
+  "restarts the run": "beginnt den Lauf neu",
   "Write a number from {low} to {high}.": "Schreibe eine Zahl von {low} bis {high}.",
   Undo: "Rückgängig",
   "Reset all": "Alles zurücksetzen",

@@ -290,6 +290,7 @@ export const learning = {
   "The presenter shows nothing at the moment.": "Im Augenblick wird vorn nichts gezeigt.",
   "You look around on your own; the lecture goes on.": "Du siehst dich selbst um; die Vorlesung geht weiter.",
   "Parts of this lesson": "Teile dieser Lektion",
+  "Parts of this page": "Teile dieser Seite",
   Text: "Text",
   "There is no such lesson": "Diese Lektion gibt es nicht",
   "The lesson could not be loaded": "Die Lektion konnte nicht geladen werden",
