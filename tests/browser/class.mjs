@@ -227,7 +227,7 @@ async function hall(page) {
 }
 
 async function exchange(page, students) {
-  await ask("POST", "/record/requests", students[4].cookie, { lesson: LESSON, text: "is that not right too?" });
+  await ask("POST", "/record/requests", students[3].cookie, { lesson: LESSON, text: "is that not right too?" });
   await page.goto(`${address}/class`);
   await page.getByRole("heading", { name: "12 students" }).waitFor();
   await page.locator(".askers", { hasText: "1 asks for a look again" }).getByRole("link", { name: "Leonhard Euler" }).waitFor();
