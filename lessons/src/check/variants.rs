@@ -7,6 +7,7 @@ use super::references::{judged, quantity_answer, reference_answer};
 use super::{diagram, measured, predictions};
 use crate::answers::Submission;
 use crate::exercise::{Question, QuestionBody};
+use crate::files::EquationPart;
 use crate::grading::grade;
 use crate::lesson::Lesson;
 use crate::verdict::Mark;
@@ -100,7 +101,10 @@ fn is_personal(lesson: &Lesson, own: &Question) -> bool {
         }
         (QuestionBody::Model(a), Some(QuestionBody::Model(b))) => a.reference != b.reference,
         (QuestionBody::Trajectory(a), Some(QuestionBody::Trajectory(b))) => a.scene != b.scene,
-        (QuestionBody::Implement(_), _) => true,
+        // The mass matrix of full bodies is the same at all states.
+        (QuestionBody::Implement(a), Some(QuestionBody::Implement(b))) => {
+            a.scene != b.scene || a.asks.iter().any(|part| *part != EquationPart::Mass)
+        }
         _ => false,
     }
 }
