@@ -55,7 +55,7 @@ mistakes! {
     COMPONENT_SIGN "component-sign"
         "The sizes of the components are right, a sign is not: look at the directions of the axes."
     COMPONENT_ORDER "component-order"
-        "The components are the right ones, but in other places: which axis is which?"
+        "The sizes of the components are right, but they stand in other places: which axis is which?"
     COMPONENT_MISSING "component-missing"
         "A component is left out: it is zero here, and should not be."
     ONE_COMPONENT "one-component"

@@ -6,6 +6,8 @@ use crate::answers::tolerance::{Tolerance, distance, norm};
 const CLOSER: f64 = 0.5;
 /// Least relative width, where a question asks for many digits: students give three or four of a wrong value too.
 const LEAST: f64 = 1e-3;
+/// Most relative width that digits left out may bring: a whole number for a component is seldom a rounded one.
+const MOST_ROUNDED: f64 = 0.02;
 /// An answer that is off by no more than so many tolerances is close.
 const NEAR: f64 = 3.0;
 
@@ -28,7 +30,7 @@ impl<'a> Fit<'a> {
         let width = if tolerance.is_exact() {
             1e-9 * size
         } else {
-            norm(rounding) + (CLOSER * tolerance.allowed(size)).max(LEAST * size)
+            norm(rounding).min(MOST_ROUNDED * size) + (CLOSER * tolerance.allowed(size)).max(LEAST * size)
         };
         Self { values, reference, tolerance, width }
     }

@@ -15,6 +15,8 @@ const SWAPPED: &str = "In the rows of joints body i and body j are swapped.";
 const ONE_SWAPPED: &str = "In the rows of one joint body i and body j are swapped.";
 const INERTIA: &str =
     "The moments of inertia stand where Ī belongs: Ī_u = ½(I_v + I_w − I_u), the reach along the axis.";
+const GAMMA_TERM_SIGN: &str = "The term with V̇q̇ of the reduced body has the wrong sign in γ.";
+const UNIT_ROWS_HALF: &str = "The rows of unit length lack their factor 2: the derivative of uᵀu is 2uᵀ.";
 const HALF_TERM: &str =
     "In V̇q̇ of the reduced body a factor 2 is missing: the product rule brings u̇ × v̇ twice.";
 
@@ -84,19 +86,13 @@ fn jacobian() -> Vec<Row> {
             "This is Φ_qᵀ: one line for each row of Φ, one column for each coordinate.",
             |_, l| Ok(part_of(l, EquationPart::Jacobian)?.transposed()),
         ),
-        row(
-            "unit-rows-half",
-            "The rows of unit length lack their factor 2: the derivative of uᵀu is 2uᵀ.",
-            |m, l| {
-                let mut grid = part_of(l, EquationPart::Jacobian)?;
-                for row in unit_rows(m) {
-                    grid.values[row * grid.columns..(row + 1) * grid.columns]
-                        .iter_mut()
-                        .for_each(|x| *x *= 0.5);
-                }
-                Ok(grid)
-            },
-        ),
+        row("unit-rows-half", UNIT_ROWS_HALF, |m, l| {
+            let mut grid = part_of(l, EquationPart::Jacobian)?;
+            for row in unit_rows(m) {
+                grid.values[row * grid.columns..(row + 1) * grid.columns].iter_mut().for_each(|x| *x *= 0.5);
+            }
+            Ok(grid)
+        }),
         row("bodies-swapped", SWAPPED, |m, l| {
             Ok(turned(&part_of(l, EquationPart::Jacobian)?, m.system.rigid_rows..l.constraints.len()))
         }),
@@ -146,15 +142,9 @@ fn gamma_of_joints() -> Vec<Row> {
             "The term with V̇q̇ of the reduced body is missing: ẅ has the part 2 u̇ × v̇, which enters γ wherever a row contains w.",
             |m, _| Ok(Grid::column(gamma_parts(m).into_iter().map(|[natural, _]| natural).collect())),
         ),
-        row(
-            "velocity-term-sign",
-            "The term with V̇q̇ of the reduced body has the wrong sign in γ.",
-            |m, _| {
-                Ok(Grid::column(
-                    gamma_parts(m).into_iter().map(|[natural, reduced]| natural - reduced).collect(),
-                ))
-            },
-        ),
+        row("velocity-term-sign", GAMMA_TERM_SIGN, |m, _| {
+            Ok(Grid::column(gamma_parts(m).into_iter().map(|[natural, reduced]| natural - reduced).collect()))
+        }),
         row(
             "velocity-term-alone",
             "Only the term with V̇q̇ of the reduced body is there; the rows' own second derivative is missing.",
@@ -284,22 +274,18 @@ fn acceleration() -> Vec<Row> {
         row("velocity-term-sign", "The term −M V̇q̇ of the reduced body stands with a plus.", |m, l| {
             velocity_term(m, l, -1.0, -1.0)
         }),
-        row("velocity-term-sign", "The term −M V̇q̇ of the reduced body stands with a plus.", |m, l| {
-            velocity_term(m, l, 1.0, -1.0)
-        }),
+        row("velocity-term-sign", GAMMA_TERM_SIGN, |m, l| velocity_term(m, l, 1.0, -1.0)),
         row(
             "velocity-term-missing",
             "The term with V̇q̇ of the reduced body is missing: in the forces −M V̇q̇, and in γ wherever a row contains w.",
             |m, l| velocity_term(m, l, 0.0, 0.0),
         ),
+        row("velocity-term-missing", "The forces lack the term −M V̇q̇ of the reduced body.", |m, l| {
+            velocity_term(m, l, 0.0, 1.0)
+        }),
         row(
             "velocity-term-missing",
-            "The term with V̇q̇ of the reduced body is missing: in the forces −M V̇q̇, and in γ wherever a row contains w.",
-            |m, l| velocity_term(m, l, 0.0, 1.0),
-        ),
-        row(
-            "velocity-term-missing",
-            "The term with V̇q̇ of the reduced body is missing: in the forces −M V̇q̇, and in γ wherever a row contains w.",
+            "The term with V̇q̇ of the reduced body is missing in γ, wherever a row contains w.",
             |m, l| velocity_term(m, l, 1.0, 0.0),
         ),
         row("velocity-term-half", HALF_TERM, |m, l| velocity_term(m, l, 0.5, 0.5)),
@@ -310,6 +296,13 @@ fn acceleration() -> Vec<Row> {
         }),
         row("inertia-half", "The ½ of Ī is missing: Ī_u = ½(I_v + I_w − I_u).", |m, _| {
             part_of(&with_ibar(m, |b| b.ibar *= 2.0), EquationPart::Acceleration)
+        }),
+        row("unit-rows-half", UNIT_ROWS_HALF, |m, l| {
+            let mut wrong = l.clone();
+            for row in unit_rows(m) {
+                wrong.jacobian.row_mut(row).scale_mut(0.5);
+            }
+            part_of(&wrong, EquationPart::Acceleration)
         }),
         row("sign", "Every acceleration has the opposite sign.", |_, l| {
             Ok(part_of(l, EquationPart::Acceleration)?.scaled(-1.0))

@@ -6,6 +6,7 @@ mod fairness;
 mod golden_variants;
 mod kinds;
 mod minutes;
+mod misdirection;
 mod order;
 mod own_numbers;
 mod pools;
