@@ -54,6 +54,26 @@ export function sameLine(a: Arrow, b: Arrow): boolean {
   return a.kind === b.kind && a.at === b.at && a.on === b.on && a.along[1] === b.along[1];
 }
 
+/** The point on the diagram's list where weights act. */
+const CENTRE = "centre";
+
+/**
+ * To which of several things that stand at one point a dragged force belongs: to the first of them, or, if it has one on this line
+ * already, to the centre of mass, where the weight acts.
+ */
+export function forceAt(arrows: Arrow[], places: string[], on: string, along: Sense): string {
+  const [first = ""] = places;
+  const taken = arrows.some((other) => sameLine(other, { kind: "force", at: first, on, along }));
+  return taken && places.includes(CENTRE) ? CENTRE : first;
+}
+
+/** What else stands where an arrow begins, itself among it. */
+export function placesThere(diagram: Diagram, arrow: Arrow) {
+  const at = `${placeOf(diagram, arrow)?.at}`;
+  const body = diagram.bodies.find((one) => one.name === arrow.on);
+  return (body?.places ?? []).filter((place) => `${place.at}` === at);
+}
+
 /** The force that a drag over the picture means: along the axis that it follows best; nothing for a click. */
 export function dragged(diagram: Diagram, dx: number, dy: number): Sense | undefined {
   if (Math.hypot(dx, dy) < LEAST_DRAG) return undefined;

@@ -11,8 +11,10 @@ import {
   drafted,
   dragged,
   drawn,
+  forceAt,
   inWords,
   labelledSelect,
+  placesThere,
   sameLine,
 } from "./arrows";
 import type { Inputs, QuestionContext } from "./field";
@@ -144,19 +146,14 @@ class DiagramField {
       const [left, row] = rows.take(x + 8, this.diagram.size[0] ?? 0, words);
       const below = 12 + NAME * scale * LINE * (1 + row);
       const name = svg("text", { x: left, y: y + below, class: "cut-name" }, words);
-      const ids = { force: places[0]?.id ?? "", moment: places.at(-1)?.id ?? "" };
+      const ids = places.map((place) => place.id);
       point.addEventListener("pointerdown", (event) => this.drag(event, body.name, ids, [x, y]));
       return svg("g", {}, point, name);
     });
   }
 
   /** Follows the pointer from a point of the body to where it is let go. */
-  private drag(
-    start: PointerEvent,
-    on: string,
-    at: Record<Arrow["kind"], string>,
-    [x, y]: [number, number],
-  ): void {
+  private drag(start: PointerEvent, on: string, places: string[], [x, y]: [number, number]): void {
     start.preventDefault();
     const inPicture = (event: PointerEvent): [number, number] => {
       const box = this.overlay.getBoundingClientRect();
@@ -178,8 +175,8 @@ class DiagramField {
     const up = (event: PointerEvent): void => {
       stop();
       const along = dragged(this.diagram, ...inPicture(event));
-      if (along) this.put({ kind: "force", at: at.force, on, along });
-      else this.turnMoment(on, at.moment);
+      if (along) this.put({ kind: "force", at: forceAt(this.arrows, places, on, along), on, along });
+      else this.turnMoment(on, places.at(-1) ?? "");
     };
     target.addEventListener("pointermove", move);
     target.addEventListener("pointerup", up);
@@ -226,6 +223,21 @@ class DiagramField {
     this.root.dispatchEvent(new Event("input", { bubbles: true }));
   }
 
+  /** A list of what stands at an arrow's point, to say to which of it the arrow belongs. */
+  private elsewhere(arrow: Arrow, words: string): HTMLElement | string {
+    const places = placesThere(this.diagram, arrow);
+    if (places.length < 2) return "";
+    const options = places.map((place) =>
+      h("option", { value: place.id, selected: place.id === arrow.at }, place.label),
+    );
+    const list = h("select", { class: "field", "aria-label": t("Point of {words}", { words }) }, ...options);
+    list.addEventListener("change", () => {
+      this.arrows = this.arrows.filter((other) => other !== arrow);
+      this.put({ ...arrow, at: list.value });
+    });
+    return list;
+  }
+
   private offerPlaces(): void {
     const places = this.diagram.bodies.find((body) => body.name === this.body.value)?.places ?? [];
     this.place.replaceChildren(...places.map((place) => h("option", { value: place.id }, place.label)));
@@ -247,7 +259,7 @@ class DiagramField {
           },
           t("Remove"),
         );
-        return h("li", null, words, " ", remove);
+        return h("li", null, words, " ", this.elsewhere(arrow, words), remove);
       }),
     );
   }

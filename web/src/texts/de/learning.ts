@@ -40,6 +40,7 @@ export const learning = {
   "Added: {arrow}": "Hinzugefügt: {arrow}",
   "Removed: {arrow}": "Entfernt: {arrow}",
   "Remove {words}": "{words} entfernen",
+  "Point of {words}": "Punkt von: {words}",
   Remove: "Entfernen",
   "Check my answers": "Meine Antworten prüfen",
   "This copy of the course has no server: answers are neither checked nor kept here. Open the lesson on your class's server to hand them in, or run “triad” on your own machine to have them checked.":
