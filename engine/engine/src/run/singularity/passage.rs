@@ -219,6 +219,9 @@ impl Examiner {
             let [a, b, m] = [0, 1, 2].map(|which| root(&self.products[which], largest, joint));
             if a.max(b) < WIDEST && m < VANISHING * a.min(b) {
                 track.raise_shares(joint, &mut self.shares);
+                if self.shares.iter().all(|share| *share > INVOLVED) {
+                    return;
+                }
             }
         }
     }

@@ -4,7 +4,8 @@ use super::found::{Doubtful, Found};
 use super::history::IslandHistory;
 use super::passage::{Dip, Examiner, Finding, root};
 use crate::integrate::Track;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
+use triad_linalg::fma;
 
 /// Greatest number of times that a step is halved.
 const MAX_DEPTH: usize = 14;
@@ -116,16 +117,20 @@ impl Search<'_> {
         let mut found = None;
         let mut least = 1.0;
         for (joint, _) in largest.iter().enumerate().filter(|(_, largest)| **largest > REDUNDANT) {
-            let part = |end: usize| {
-                let root = self.square(joint, [a, b][end].1).clamp(0.0, 1.0).sqrt();
-                match known[end] && root < DEEP {
-                    true => PI,
-                    false if root <= floor => 0.0,
-                    false => libm::asin(root - floor),
-                }
-            };
             let observed = fastest_change.get(joint);
             let rate = observed.map_or(RATE_BOUND, |fastest| RATE_BOUND.max(OBSERVED_RATE_BOUND * fastest));
+            let roots = [a, b].map(|end| self.square(joint, end.1).clamp(0.0, 1.0).sqrt());
+            // Most joints are far from it, and farther than the one found so far: exact arcsines cost more than all else here.
+            let far = roots.iter().all(|root| root - floor >= NEAR);
+            let most = if far { 1.0 } else { STEEP } * rate * turned;
+            if roots.iter().map(|root| angle_above(root - floor)).sum::<f64>() > least * most {
+                continue;
+            }
+            let part = |end: usize| match roots[end] {
+                root if known[end] && root < DEEP => PI,
+                root if root <= floor => 0.0,
+                root => libm::asin(root - floor),
+            };
             let (from, to) = (part(0), part(1));
             let steep = if from.min(to) < NEAR { STEEP } else { 1.0 };
             let bound = steep * rate * turned;
@@ -298,6 +303,13 @@ impl Search<'_> {
         self.history.largest[joint] > REDUNDANT
             && root(products, &self.history.largest, joint) < DEEP.min(10.0 * dip.root.max(EXACT.0))
     }
+}
+
+/// A lower bound of the arcsine of a number up to 1, at most 2e-4 below it (Abramowitz and Stegun, 4.4.45); zero if that is negative.
+fn angle_above(sine: f64) -> f64 {
+    let x = sine.max(0.0);
+    let slope = fma(fma(fma(-0.018_729_3, x, 0.074_261), x, -0.212_114_4), x, 1.570_728_8);
+    (FRAC_PI_2 - 1e-4 - (1.0 - x).sqrt() * slope).max(0.0)
 }
 
 /// A time near the best of three points, if that is an end of them, and the vertex of their parabola is too near it to be told
