@@ -11,6 +11,9 @@ mod updates;
 
 mod stages;
 
+#[cfg(test)]
+mod tests;
+
 use super::step::{MIN_ERROR, SAFETY, StepRecord, StopReason, weighted_norm};
 use super::stepper::OdeMethod;
 use coefficients::{ORDER_5, ORDER_9, ORDER_13, Tables};

@@ -7,8 +7,8 @@ use crate::integrate::step::StepRecord;
 use nalgebra::{Complex, DVector};
 use triad_dynamics::ode::OdeSystem;
 
-/// Relative rounding of the stages: Newton's method does not converge further.
-const ROUNDING: f64 = 1e-12;
+/// Rounding of the stages to which Newton's method goes on, and below which it may end where its corrections shrink no further.
+const ROUNDING: (f64, f64) = (1e-14, 1e-12);
 /// Part of the error that a step may have to which its stages are solved: what is left spoils the estimate of the error, and
 /// with 3e-2 steps are refused for nothing.
 const SOLVED: f64 = 1e-3;
@@ -105,7 +105,7 @@ impl Stages {
         self.predict(last, factors.h);
         self.scale.clear();
         self.scale.extend(last.y.iter().enumerate().map(|(i, y)| scale(i, last.y.len(), *y, estimated)));
-        let enough = (ROUNDING / estimated).max(SOLVED);
+        let [wanted, enough] = [ROUNDING.0, ROUNDING.1].map(|rounding| (rounding / estimated).max(SOLVED));
         let most = self.max_iterations();
         let (mut size_before, mut rate, mut contraction) = (0.0f64, 0.0f64, 0.0f64);
         self.updates.restart();
@@ -132,15 +132,15 @@ impl Stages {
             }
             size_before = size.max(f64::MIN_POSITIVE);
             let converged = if iteration == 0 {
-                size <= 1e-3 * enough
+                size <= 1e-3 * wanted
             } else {
-                rate < DIVERGING && rate / (1.0 - rate) * size <= enough
+                rate < DIVERGING && rate / (1.0 - rate) * size <= wanted
             };
             if converged {
                 return Some(Solved { iterations: iteration + 1, contraction });
             }
         }
-        None
+        (size_before <= enough).then_some(Solved { iterations: most, contraction })
     }
 
     /// ẋ at all stages. False if it is not finite.
