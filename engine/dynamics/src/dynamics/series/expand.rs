@@ -17,6 +17,13 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// first order that is `enough`. Returns the order.
     #[inline(always)]
     pub fn expand(&mut self, order: usize, enough: impl Fn(&Self, usize) -> bool) -> usize {
+        self.begin_expansion();
+        self.expand_from(1, order, enough)
+    }
+
+    /// Takes over the state as the terms of orders 0 and 1.
+    #[inline(always)]
+    pub fn begin_expansion(&mut self) {
         for (b, state) in self.state.iter().enumerate() {
             self.q[b * self.stride..b * self.stride + 2].copy_from_slice(state);
         }
@@ -32,8 +39,18 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.rows.clear_extra();
         self.rows.keep_directions();
         self.counters.evaluations += 1;
+    }
+
+    /// Expands further from Q_known, which is at least 1, in the same way.
+    #[inline(always)]
+    pub fn expand_from(
+        &mut self,
+        known: usize,
+        order: usize,
+        enough: impl Fn(&Self, usize) -> bool,
+    ) -> usize {
         let order = order.min(self.stride - 1);
-        for n in 0..=order.saturating_sub(2) {
+        for n in known - 1..=order.saturating_sub(2) {
             self.solve_order(n);
             if enough(self, n + 2) {
                 return n + 2;

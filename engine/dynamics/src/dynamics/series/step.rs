@@ -111,15 +111,18 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Call<'_, L, B> {
     }
 }
 
-/// Order 0 of the series, likewise.
-struct Evaluate<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, usize);
+/// Orders of the series from those that are known, likewise.
+struct Evaluate<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, usize, usize);
 
 impl<const L: usize, B: Bodies<L>> WithSimd for Evaluate<'_, L, B> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.0.expand(self.1, |_, _| false);
+        if self.1 == 0 {
+            self.0.begin_expansion();
+        }
+        self.0.expand_from(self.1.max(1), self.2, |_, _| false);
     }
 }
 
@@ -132,7 +135,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Expands the motion about the state, at which S must be factored, up to Q_order.
     pub(super) fn expand_to(&mut self, order: usize) {
-        Arch::new().dispatch(Evaluate(self, order));
+        Arch::new().dispatch(Evaluate(self, 0, order));
+    }
+
+    /// The same from Q_known on, after an expansion up to there.
+    pub(super) fn expand_further(&mut self, known: usize, order: usize) {
+        Arch::new().dispatch(Evaluate(self, known, order));
     }
 
     /// Parts are called, not inlined: a step would otherwise contain several copies of each.

@@ -12,9 +12,6 @@ use crate::system::System;
 use pulp::{Arch, Simd, WithSimd};
 use triad_linalg::larger;
 
-/// A term of the series that is smaller than this part of the largest one, divided by its order, no longer matters to the error.
-/// Estimates hardly change with a tenth of it.
-const NEGLIGIBLE_TERM: f64 = 1e-3;
 /// Part of the length of the mechanism beyond which an error is no longer carried: it would no longer be small.
 const LOST: f64 = 0.05;
 /// Part of that length by which the state is disturbed where only small disturbances behave: near singular positions.
@@ -29,8 +26,10 @@ const CONVERGES: f64 = 0.25;
 const GROWTH: f64 = 4.0;
 /// Part of the error that the last terms make from which on its series do not converge.
 const DIVERGES: f64 = 0.1;
-/// The same from which on more terms are wanted: of stiff mechanisms the motion may be smooth and its error not.
-const UNFINISHED: f64 = 0.01;
+/// The same from which on more terms are wanted, how many more, and the fewest.
+const UNFINISHED: f64 = 3e-3;
+const MORE: usize = 2;
+const FEWEST: usize = 3;
 
 /// The error of the motion, and how it changes within the last step.
 #[derive(Clone, Debug)]
@@ -43,9 +42,8 @@ pub(super) struct Transport<const L: usize, B: Bodies<L>> {
     carried: Vec<B::Natural>,
     /// What that is at the end of the step.
     arrived: Vec<[B::Natural; 2]>,
-    /// The highest order of these, and the least that steps before have shown to be needed.
+    /// The highest order of these.
     order: usize,
-    least: usize,
     /// What the last step adds to that at its end, before it is moved onto the constraints: states within the step are not.
     added: Vec<[B::Natural; 2]>,
     /// The order and size, s, of the last step.
@@ -214,7 +212,6 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             carried: vec![B::zero(); count * series.stride],
             arrived: nothing.clone(),
             order: 0,
-            least: 0,
             added: nothing,
             step: (0, 0.0),
             factored: [positions.clone(), positions],
@@ -257,18 +254,20 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         value::<L, B>(&self.carried[first..=first + self.order], tau)
     }
 
-    /// Carries the error over the step: the difference of the series about x and about x − e.
+    /// Carries the error over the step: the difference of the series about x and about x − e. It needs one term fewer than in the step
+    /// before, or as many more as its last ones show: of stiff mechanisms the motion may be smooth and its error not.
     fn carry(&mut self, series: &Series<L, B>, start: f64, length: f64) {
         let h = self.step.1;
         let most = self.step.0;
-        self.order = self.terms(series).max(self.least).min(most);
+        self.order = self.order.saturating_sub(1).max(FEWEST).min(most);
         let before = size::<L, B>(&self.error, h, length);
         self.expand(series, start, 1.0);
         let mut after = size::<L, B>(&self.arrived, h, length);
-        self.least = self.least.saturating_sub(1);
-        if self.order < most && (after.is_nan() || self.last_terms() > UNFINISHED * after) {
-            (self.order, self.least) = (most, most);
-            self.expand(series, start, 1.0);
+        while self.order < most && (after.is_nan() || self.last_terms() > UNFINISHED * after) {
+            let known = self.order;
+            self.order = (known + MORE).min(most);
+            self.twin.expand_further(known, self.order);
+            self.differ(series, 1.0);
             after = size::<L, B>(&self.arrived, h, length);
         }
         let grows = after.is_nan() || after > GROWTH * before.max(NEAR * length);
@@ -276,22 +275,6 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         {
             self.expand(series, start, DISTURBANCE * length / before);
         }
-    }
-
-    /// How many terms carry the error.
-    fn terms(&self, series: &Series<L, B>) -> usize {
-        let (order, h) = self.step;
-        let (mut power, mut most) = (1.0, 0.0f64);
-        for k in 1..order {
-            power *= h;
-            let term = series.size_of(k) * power;
-            most = most.max(term);
-            // In a long step terms may be far larger than their sum, which is about as large as the state.
-            if k > 2 && k as f64 * term <= NEGLIGIBLE_TERM * most.min(series.size_of(0)) {
-                return k;
-            }
-        }
-        order
     }
 
     /// Size of the last two terms of what is carried, at the end of the step.
@@ -329,8 +312,14 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             twin.call(Part::Settle);
         }
         twin.expand_to(self.order);
+        self.differ(series, s);
+    }
+
+    /// The s-th part of the difference of the series.
+    fn differ(&mut self, series: &Series<L, B>, s: f64) {
         let (order, h) = (self.order, self.step.1);
         let Self { twin, carried, arrived, .. } = self;
+        let stride = twin.stride;
         Arch::new().dispatch(Differ::<L, B> {
             of: [&series.q, &twin.q],
             stride,
