@@ -119,7 +119,12 @@ impl Stages {
             self.apply();
             if iteration > 0 {
                 rate = size / size_before;
-                contraction = if iteration == 1 { rate } else { (rate * contraction).sqrt() };
+                // Corrections near rounding say nothing of how others shrink.
+                if iteration == 1 {
+                    contraction = rate;
+                } else if size_before > enough {
+                    contraction = (rate * contraction).sqrt();
+                }
                 if rate.is_nan() || rate >= if iteration == 1 { DIVERGING_AT_FIRST } else { DIVERGING } {
                     // Rounding keeps small corrections from shrinking.
                     return (size <= enough).then_some(Solved { iterations: iteration + 1, contraction });
