@@ -76,7 +76,7 @@ fn accepted(server: &Server, of_kind: &[(String, Value)], count: usize) -> f64 {
 
 /// Submissions graded in a second by so many graders, once the first is.
 fn graded(url: &str, folder: &Path, graders: usize) -> f64 {
-    const LEFT: &str = "SELECT COUNT(*) FROM grading";
+    const LEFT: &str = "SELECT COUNT(*) FROM grading WHERE state <> 'dead'";
     // What the server had begun is begun anew: nobody waits for the end of its claims.
     psql(url, "UPDATE grading SET state = 'queued', starts = 0, lease_until = 0");
     let all = count(url, LEFT);
@@ -103,7 +103,13 @@ fn main() {
     for (rank, kind) in kinds::KINDS.into_iter().enumerate() {
         let mut of_kind = Vec::new();
         for lesson in course.lessons() {
-            for (_, answers) in kinds::answered(lesson).into_iter().filter(|(one, _)| *one == kind) {
+            // What is drawn from a pool is not asked of each of these students.
+            let of_all = |answers: &kinds::Answers| {
+                let mut asked = lesson.exercise.questions.iter().filter(|one| answers.contains_key(&one.id));
+                asked.all(|question| question.pool.is_none())
+            };
+            let wanted = |(one, answers): &(&str, kinds::Answers)| *one == kind && of_all(answers);
+            for (_, answers) in kinds::answered(lesson).into_iter().filter(wanted) {
                 of_kind.push((lesson.slug.clone(), serde_json::to_value(answers).expect("JSON")));
             }
         }
