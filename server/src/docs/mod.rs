@@ -83,7 +83,8 @@ const INTERFACE: (&str, &str, &str) = ("http.html", "HTTP interface", "Build");
 const GALLERY: (&str, &str, &str) = ("gallery.html", "Ten mechanisms", "Begin");
 
 /// Pictures that documents show: path in the repository, and content.
-const PICTURES: [(&str, &str); 3] = [
+const PICTURES: [(&str, &str); 4] = [
+    ("docs/workbench.svg", include_str!("../../../docs/workbench.svg")),
     ("docs/bricard.svg", include_str!("../../../docs/bricard.svg")),
     ("docs/beside.svg", include_str!("../../../docs/beside.svg")),
     ("docs/treatments.svg", include_str!("../../../docs/treatments.svg")),
