@@ -47,25 +47,6 @@ pub(crate) fn with_one_more_slip(
 
 /// The usual mistake that leads to these values, if there is one. `rounding` is what the digits may have changed.
 pub(crate) fn recognise(question: &QuantityQuestion, typed: &[f64], rounding: &[f64]) -> Option<Recognised> {
-    let recognised = seen(question, typed, rounding)?;
-    let count = question.tolerance.is_exact() && typed.len() == 1;
-    if !count || COUNTED.contains(&recognised.mistake) {
-        return Some(recognised);
-    }
-    Some(Recognised::plainly(miscount(question, typed).unwrap_or(mistakes::COUNT)))
-}
-
-/// Mistakes whose words fit a count as they stand. A count has no half, no square and no unit.
-const COUNTED: [&Mistake; 6] = [
-    mistakes::ZERO,
-    mistakes::TERM_MISSING,
-    mistakes::TERM_SIGN,
-    mistakes::OTHER_NUMBER,
-    mistakes::OTHER_COUNT,
-    mistakes::NO_WHOLE_NUMBER,
-];
-
-fn seen(question: &QuantityQuestion, typed: &[f64], rounding: &[f64]) -> Option<Recognised> {
     let fit = Fit::new(typed, rounding, &question.reference, question.tolerance);
     if question.tolerance.is_exact() && typed.iter().any(|x| x.fract() != 0.0) && whole(&question.reference) {
         return Some(Recognised::plainly(mistakes::NO_WHOLE_NUMBER));
