@@ -21,7 +21,10 @@ pub struct Namespace {
 }
 
 impl Namespace {
-    /// Makes one. Errors with what is missing: it takes root and iproute2.
+    /// Makes one.
+    ///
+    /// # Errors
+    /// What is missing: it takes root and iproute2.
     pub fn make() -> Result<Self, String> {
         let id = std::process::id();
         // Four addresses of those that are set aside for tests of networks, 198.18.0.0/15.

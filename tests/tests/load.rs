@@ -77,7 +77,7 @@ fn times(server: &Server, players: &[Player]) -> Vec<f64> {
 fn kept(log: &Path) -> usize {
     let counters = admin(log, "/metrics").text();
     let line = counters.lines().find_map(|line| line.strip_prefix("triad_sessions_bytes "));
-    line.expect("a counter").parse().expect("a number")
+    line.unwrap().parse().unwrap()
 }
 
 /// Waits until the server has no session, keeps nothing of those that it had, and has no more threads and files than so many.

@@ -15,6 +15,8 @@ const SWAPPED: &str = "In the rows of joints body i and body j are swapped.";
 const ONE_SWAPPED: &str = "In the rows of one joint body i and body j are swapped.";
 const INERTIA: &str =
     "The moments of inertia stand where Ī belongs: Ī_u = ½(I_v + I_w − I_u), the reach along the axis.";
+const GAMMA_TERM_MISSING: &str =
+    "The term with V̇q̇ of the reduced body is missing in γ, wherever a row contains w.";
 const GAMMA_TERM_SIGN: &str = "The term with V̇q̇ of the reduced body has the wrong sign in γ.";
 const UNIT_ROWS_HALF: &str = "The rows of unit length lack their factor 2: the derivative of uᵀu is 2uᵀ.";
 const HALF_TERM: &str =
@@ -283,11 +285,7 @@ fn acceleration() -> Vec<Row> {
         row("velocity-term-missing", "The forces lack the term −M V̇q̇ of the reduced body.", |m, l| {
             velocity_term(m, l, 0.0, 1.0)
         }),
-        row(
-            "velocity-term-missing",
-            "The term with V̇q̇ of the reduced body is missing in γ, wherever a row contains w.",
-            |m, l| velocity_term(m, l, 1.0, 0.0),
-        ),
+        row("velocity-term-missing", GAMMA_TERM_MISSING, |m, l| velocity_term(m, l, 1.0, 0.0)),
         row("velocity-term-half", HALF_TERM, |m, l| velocity_term(m, l, 0.5, 0.5)),
         row("velocity-term-half", HALF_TERM, |m, l| velocity_term(m, l, 0.5, 1.0)),
         row("velocity-term-half", HALF_TERM, |m, l| velocity_term(m, l, 1.0, 0.5)),
