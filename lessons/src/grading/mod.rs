@@ -113,6 +113,20 @@ pub fn grade_if(lesson: &Lesson, submission: &Submission, wanted: &Wanted) -> Re
     Ok(verdict)
 }
 
+/// Whether a submission answers only what the lesson asks: it can be graded.
+///
+/// Errors if it answers a question that does not exist.
+pub fn asked(lesson: &Lesson, submission: &Submission) -> Result<(), GradeError> {
+    match submission.answers.keys().find(|id| lesson.question(id).is_none()) {
+        None => Ok(()),
+        Some(id) => Err(GradeError::UnknownQuestion {
+            lesson: lesson.slug.clone(),
+            id: shorten(id),
+            known: lesson.exercise.questions.iter().map(|q| q.id.as_str()).collect::<Vec<_>>().join(", "),
+        }),
+    }
+}
+
 /// Judges every question of the lesson, in order.
 pub(crate) fn judge(lesson: &Lesson, submission: &Submission) -> Result<Vec<Judgement>, GradeError> {
     judge_if(lesson, submission, &Wanted::default())
@@ -121,13 +135,7 @@ pub(crate) fn judge(lesson: &Lesson, submission: &Submission) -> Result<Vec<Judg
 /// As [`judge`], as long as that is wanted.
 fn judge_if(lesson: &Lesson, submission: &Submission, wanted: &Wanted) -> Result<Vec<Judgement>, GradeError> {
     let all = &lesson.exercise.questions;
-    if let Some(id) = submission.answers.keys().find(|id| lesson.question(id).is_none()) {
-        return Err(GradeError::UnknownQuestion {
-            lesson: lesson.slug.clone(),
-            id: shorten(id),
-            known: all.iter().map(|q| q.id.as_str()).collect::<Vec<_>>().join(", "),
-        });
-    }
+    asked(lesson, submission)?;
     let mut judgements: Vec<Judgement> = Vec::with_capacity(all.len());
     for question in all {
         let answer = submission.answers.get(&question.id).filter(|answer| !answer.is_blank());

@@ -187,7 +187,9 @@ impl Store {
             };
             Some(StoredSubmission { id, lesson, student, answers, verdict })
         };
-        Ok(rows.into_iter().filter_map(read).collect())
+        // Files make them large: whoever hands in does not wait for their reading.
+        let reading = tokio::task::spawn_blocking(move || rows.into_iter().filter_map(read).collect());
+        reading.await.map_err(|cause| StoreError::Damaged(cause.to_string()))
     }
 
     /// A submission with its person, by id.

@@ -76,3 +76,20 @@ async fn what_takes_longer_is_graded_in_its_turn_and_told_to_its_author() {
     grader.finish(2).await;
     assert_eq!(class.app.store.faults().await.expect("looks"), Vec::<String>::new());
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_no_grader_could_grade_is_refused_before_it_waits() {
+    if postgres::given().is_none() {
+        return;
+    }
+    let class = class_with(Limits { at_once: Duration::ZERO, ..Limits::default() }).await;
+    let (ada, _) = class.join("Ada").await;
+    let body = json!({"answers": {"of-another-lesson": {"value": "1"}}});
+    class.ask("POST", ADDRESS, &ada, Some(body)).await.problem(422, "unknown-question");
+    assert_eq!(class.ask("GET", "/api/v1/submissions", &ada, None).await.json(), json!([]));
+    assert_eq!(
+        class.app.store.gradings().await.expect("looks"),
+        (0, 0),
+        "nothing waits, nothing is put aside"
+    );
+}

@@ -176,8 +176,6 @@ async fn later(
     who: &Who,
     key: Option<String>,
 ) -> Result<Accepted, Problem> {
-    // What nobody could grade is refused now.
-    Submission::from_json(&body)?;
     let accept = Accept {
         course: who.course.clone(),
         lesson: lesson.slug.clone(),
@@ -189,7 +187,15 @@ async fn later(
         bundle: lesson.bundle(),
         request: request::current(),
     };
-    Ok(app.store.enqueue(&accept).await?)
+    let (variants, lesson) = (Arc::clone(&app.variants), lesson.clone());
+    let gradable = blocking(move || {
+        // What nobody could grade is refused now, and not put aside by a grader.
+        let submission = Submission::from_json(&accept.body)?;
+        let seed = accept.seed.as_deref().unwrap_or_else(|| submission.numbers_of());
+        triad_lessons::asked(&*variants.of(&lesson, seed)?, &submission)?;
+        Ok(accept)
+    });
+    Ok(app.store.enqueue(&gradable.await?).await?)
 }
 
 /// The name that the client gave to the request.
