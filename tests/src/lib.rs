@@ -15,8 +15,8 @@ pub mod probe;
 pub mod vitals;
 
 #[cfg(target_os = "linux")]
-pub mod park;
 pub mod program;
+pub mod park;
 pub mod random;
 pub mod reference;
 pub mod reviewed;

@@ -144,8 +144,8 @@ pub(crate) fn number(cell: &str, line: usize, name: &str) -> Result<f64, TableEr
 
 /// Whether the cells are units and not numbers alone: 1 may be either.
 fn are_units(cells: &[String]) -> bool {
-    cells.iter().all(|cell| Unit::parse(cell).is_ok())
-        && cells.iter().any(|cell| cell.parse::<f64>().is_err())
+    let is_unit = |cell: &String| cell == "1" || (Unit::parse(cell).is_ok() && cell.parse::<f64>().is_err());
+    cells.iter().all(is_unit) && cells.iter().any(|cell| cell != "1")
 }
 
 /// Reads a table of numbers. A row of units below the names, as `triad run` writes it, is passed over.

@@ -124,9 +124,10 @@ fn given(question: &QuantityQuestion, fit: &Fit) -> Option<&'static Mistake> {
     derivation.given.iter().any(factor).then_some(mistakes::GIVEN_FACTOR)
 }
 
-/// Whether something is counted: an exact answer to which only sums and products lead.
+/// Whether something is counted: one exact number, or exact ones to which only sums and products lead.
 fn is_count(question: &QuantityQuestion) -> bool {
-    question.tolerance.is_exact() && question.derivation.entries.iter().all(adds_up)
+    question.tolerance.is_exact()
+        && (question.size == [1, 1] || question.derivation.entries.iter().all(adds_up))
 }
 
 fn adds_up(node: &Node) -> bool {

@@ -47,10 +47,12 @@ fn of_each<T: Send>(work: impl Fn(&Lesson) -> T + Sync) -> Vec<(String, T)> {
     })
 }
 
-/// The right answers that a student has to find, as far as they are numbers.
+/// The right answers that a student has to find, as far as they are numbers or programs.
 fn right_answers(lesson: &Lesson) -> String {
     let of = |q: &crate::exercise::Question| match &q.body {
         QuestionBody::Quantity(body) => format!("{} {:.9?}", q.id, body.reference),
+        // A program is asked for the equations in states of one's own.
+        QuestionBody::Implement(_) => format!("{} {:?}", q.id, lesson.instances(&q.id)),
         _ => q.id.clone(),
     };
     lesson.exercise.questions.iter().map(of).collect::<Vec<_>>().join("; ")

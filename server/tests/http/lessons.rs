@@ -173,7 +173,14 @@ async fn what_is_typed_is_read_back_without_being_judged() {
 #[tokio::test]
 async fn the_table_that_a_question_asks_for_is_written_of_a_run_of_ones_own() {
     let server = server();
-    let scene = get(&server, "/api/v1/lessons/verification").await.json()["scene"].clone();
+    let lesson = get(&server, "/api/v1/lessons/verification?student=Ada").await.json();
+    let mut scene = lesson["scene"].clone();
+    // The question asks for a rod of one's own length, which its text tells.
+    let questions = lesson["exercise"]["questions"].as_array().expect("questions");
+    let asked = questions.iter().find(|question| question["id"] == "your-run").expect("it");
+    let start = asked["prompt"].as_str().and_then(|text| text.split("$x=").nth(1)).expect("the start");
+    let start: f64 = start.split('$').next().expect("a number").parse().expect("a number");
+    scene["bodies"][0]["position"] = json!([start, 0, 0]);
     let path = "/api/v1/lessons/verification/questions/your-run/table";
     let table = async |scene: &Value| {
         let reply = post(&server, path, json!({"scene": scene})).await;
@@ -191,7 +198,7 @@ async fn the_table_that_a_question_asks_for_is_written_of_a_run_of_ones_own() {
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(
         (lines[0], lines[1], lines.len()),
-        ("t,x,y", "0,-1,0", 1002),
+        ("t,x,y", format!("0,{start},0").as_str(), 1002),
         "a row each 0.01 s, as the scene says"
     );
     assert_eq!(judged(&text).await, "right");

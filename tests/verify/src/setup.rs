@@ -31,6 +31,8 @@ pub fn run(root: &Path) -> Result<(), String> {
     if !missing.is_empty() {
         install(&missing)?;
     }
+    // Licences and sources are looked up for every system; a build brings the packages of this one only.
+    must(Command::new(env!("CARGO")).args(["fetch", "--locked", "--quiet"]).current_dir(root))?;
     add_target();
     // The page's own build leaves out the tools that check it, so that a time of the lock file says nothing here.
     node_packages(&root.join("web"), "node_modules/.bin/biome")?;

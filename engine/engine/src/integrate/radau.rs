@@ -11,12 +11,9 @@ mod updates;
 
 mod stages;
 
-#[cfg(test)]
-mod tests;
-
 use super::step::{MIN_ERROR, SAFETY, StepRecord, StopReason, weighted_norm};
 use super::stepper::OdeMethod;
-use coefficients::{ORDER_5, ORDER_9, ORDER_13, Tables};
+pub use coefficients::{ORDER_5, ORDER_9, ORDER_13, Tables};
 use linear::{Factors, RateJacobian};
 use nalgebra::DVector;
 use stages::{Stages, scale};
@@ -96,9 +93,16 @@ impl Radau {
         integrator
     }
 
-    /// Starts at (t, x) with steps of size h, of order 5, whatever the error; their equations are solved to the tolerance.
-    pub fn with_step(system: &mut impl OdeSystem, t: f64, x: &[f64], tolerance: f64, h: f64) -> Self {
-        let mut integrator = Self::with_tables(&ORDER_5, system, t, x, tolerance);
+    /// Starts at (t, x) with steps of size h, whatever the error; their equations are solved to the tolerance.
+    pub fn with_step(
+        tables: &'static Tables,
+        system: &mut impl OdeSystem,
+        t: f64,
+        x: &[f64],
+        tolerance: f64,
+        h: f64,
+    ) -> Self {
+        let mut integrator = Self::with_tables(tables, system, t, x, tolerance);
         (integrator.fixed, integrator.h) = (true, h);
         integrator
     }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // a test that cannot go on says so
 
-use triad_engine::integrate::{OdeMethod, Radau};
+use triad_engine::integrate::{ORDER_5, ORDER_9, ORDER_13, OdeMethod, Radau, Tables};
 use triad_engine::ode::OdeSystem;
 
 /// ÿ = −ẏ⁰ sin y − 0.3 ẏ + cos t: a damped, driven pendulum.
@@ -12,6 +12,16 @@ impl OdeSystem for Pendulum {
     fn rhs(&mut self, t: f64, x: &[f64], rate: &mut [f64]) {
         rate[0] = x[1];
         rate[1] = -libm::sin(x[0]) - 0.3 * x[1] + libm::cos(t);
+    }
+    fn after_step(&mut self, _: f64, _: &mut [f64], _: &mut [f64]) {}
+}
+
+/// ẍ = 2 x³ and ÿ = −y, which x = 1/(1 + t) and y = cos t satisfy.
+struct Known;
+
+impl OdeSystem for Known {
+    fn rhs(&mut self, _: f64, y: &[f64], rate: &mut [f64]) {
+        rate.copy_from_slice(&[y[2], y[3], 2.0 * y[0] * y[0] * y[0], -y[1]]);
     }
     fn after_step(&mut self, _: f64, _: &mut [f64], _: &mut [f64]) {}
 }
@@ -28,7 +38,7 @@ impl OdeSystem for Stiff {
 }
 
 fn end(h: f64) -> f64 {
-    let mut integrator = Radau::with_step(&mut Pendulum, 0.0, &[1.0, 0.0], 1e-13, h);
+    let mut integrator = Radau::with_step(&ORDER_5, &mut Pendulum, 0.0, &[1.0, 0.0], 1e-13, h);
     while integrator.last().t < 2.0 - 0.5 * h {
         integrator.step(&mut Pendulum, 1e9).unwrap();
     }
@@ -41,6 +51,37 @@ fn has_order_five() {
     let error = |h: f64| (end(h) - reference).abs();
     let order = libm::log2(error(0.25) / error(0.0625)) / 2.0;
     assert!((order - 5.0).abs() < 0.3, "{order}");
+}
+
+/// How far a method is off after two seconds in so many steps.
+fn off(tables: &'static Tables, steps: u32) -> f64 {
+    let h = 2.0 / f64::from(steps);
+    let mut method = Radau::with_step(tables, &mut Known, 0.0, &[1.0, 1.0, -1.0, 0.0], 1e-12, h);
+    while method.last().t < 2.0 - 0.5 * h {
+        method.step(&mut Known, 1e9).unwrap();
+    }
+    let exact = [1.0 / 3.0, libm::cos(2.0), -1.0 / 9.0, -libm::sin(2.0)];
+    method.last().y.iter().zip(exact).map(|(y, exact)| (y - exact).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn each_number_of_stages_has_its_order() {
+    for (tables, order, steps) in
+        [(&ORDER_5, 5.0, [16, 32]), (&ORDER_9, 9.0, [8, 16]), (&ORDER_13, 13.0, [4, 8])]
+    {
+        let [coarse, fine] = steps.map(|steps| off(tables, steps));
+        let observed = libm::log2(coarse / fine);
+        assert!((observed - order).abs() < 0.9, "{order}: {coarse:.2e}, {fine:.2e}, {observed:.2}");
+    }
+}
+
+/// What Newton's method leaves adds up from step to step, and grows with what x does to its neighbours.
+#[test]
+fn stages_are_solved_to_rounding_where_the_tolerance_is_near_it() {
+    for (tables, steps) in [(&ORDER_9, 32), (&ORDER_13, 8), (&ORDER_13, 16)] {
+        let off = off(tables, steps);
+        assert!(off < 1e-12, "{steps} steps: {off:.2e}");
+    }
 }
 
 #[test]
