@@ -14,14 +14,14 @@ pub mod postgres;
 pub mod probe;
 pub mod vitals;
 
-#[cfg(target_os = "linux")]
 pub mod program;
-pub mod park;
 pub mod random;
 pub mod reference;
 pub mod reviewed;
 
 pub mod options;
+#[cfg(target_os = "linux")]
+pub mod park;
 pub mod refusals;
 
 pub mod lecture;
