@@ -178,8 +178,8 @@ async fn the_table_that_a_question_asks_for_is_written_of_a_run_of_ones_own() {
     // The question asks for a rod of one's own length, which its text tells.
     let questions = lesson["exercise"]["questions"].as_array().expect("questions");
     let asked = questions.iter().find(|question| question["id"] == "your-run").expect("it");
-    let start = asked["prompt"].as_str().and_then(|text| text.split("$x=").nth(1)).expect("the start");
-    let start: f64 = start.split('$').next().expect("a number").parse().expect("a number");
+    let start = asked["prompt_html"].as_str().and_then(|text| text.split("x=").nth(1)).expect("the start");
+    let start: f64 = start.split('<').next().expect("a number").parse().expect("a number");
     scene["bodies"][0]["position"] = json!([start, 0, 0]);
     let path = "/api/v1/lessons/verification/questions/your-run/table";
     let table = async |scene: &Value| {
