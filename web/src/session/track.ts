@@ -10,7 +10,8 @@ const OF_JOINT = 9;
 /** Bytes that a page keeps of a run. */
 const MOST_BYTES = 48e6;
 
-interface Frame {
+/** One recorded moment. */
+export interface Frame {
   time: number;
   bodies: number;
   joints: number;
@@ -33,6 +34,20 @@ export class Track {
   /** The time of the last frame, s; nothing where there is none. */
   get end(): number | undefined {
     return this.frames.at(-1)?.time;
+  }
+
+  /** Between two frames on the average, s; 0 where there are none. */
+  get every(): number {
+    const [first, last] = [this.frames[0], this.frames.at(-1)];
+    return first && last && first !== last ? (last.time - first.time) / (this.frames.length - 1) : 0;
+  }
+
+  /** The frames with as many bodies and joints as a state; of more than `most` every second, third … and the last. */
+  framesLike(state: SessionState, most: number): readonly Frame[] {
+    const [bodies, joints] = [state.bodies.length, state.forces.length];
+    const like = this.frames.filter((frame) => frame.bodies === bodies && frame.joints === joints);
+    const stride = Math.max(1, Math.ceil(like.length / most));
+    return like.filter((_, k) => k % stride === 0 || k === like.length - 1);
   }
 
   copy(): Track {
@@ -117,6 +132,14 @@ export class Track {
     return { ...state, time, bodies, forces };
   }
 }
+
+/** A component of a body's position, m. */
+export const positionIn = (frame: Frame, body: number, axis: number): number =>
+  frame.numbers[OF_BODY * body + axis] ?? NaN;
+
+/** A component of a joint's force, N, or of its moment, N m. */
+export const reactionIn = (frame: Frame, joint: number, what: "force" | "moment", axis: number): number =>
+  frame.numbers[OF_BODY * frame.bodies + OF_JOINT * joint + (what === "force" ? 3 : 6) + axis] ?? NaN;
 
 function mixed(a: Float32Array, b: Float32Array, at: number, part: number): Vec3 {
   const one = (k: number): number => {

@@ -2,12 +2,15 @@
 
 import type { Accuracy, SessionState } from "../../api/types";
 import { t } from "../../core/texts";
+import { type Frame, positionIn, reactionIn } from "../../session/track";
 
 export interface Curve {
   label: string;
   unit: string;
   /** The value in a state. */
   of: (state: SessionState) => number;
+  /** The value in a frame of the track, for what a track holds. */
+  inFrame?: (frame: Frame) => number;
   /** Its estimated error, where there is one: the plot shows it as a band. */
   error?: keyof Accuracy;
 }
@@ -30,12 +33,14 @@ function components(
   unit: string,
   of: (state: SessionState, k: number) => number | undefined,
   error?: keyof Accuracy,
+  inFrame?: (frame: Frame, k: number) => number,
 ): Curve[] {
   return AXES.map((axis, k) => ({
     label: `${symbol}${axis}`,
     unit,
     of: (state) => of(state, k) ?? NaN,
     ...(error && { error }),
+    ...(inFrame && { inFrame: (frame: Frame) => inFrame(frame, k) }),
   }));
 }
 
@@ -90,7 +95,13 @@ export function charts(state: SessionState): Chart[] {
 }
 
 function ofBody(name: string, at: number): Chart[] {
-  const place = components("", "m", (s, k) => s.bodies[at]?.position[k], "position");
+  const place = components(
+    "",
+    "m",
+    (s, k) => s.bodies[at]?.position[k],
+    "position",
+    (frame, k) => positionIn(frame, at, k),
+  );
   const velocity = components("v", "m/s", (s, k) => s.bodies[at]?.velocity[k], "velocity");
   return [
     {
@@ -110,12 +121,20 @@ function ofBody(name: string, at: number): Chart[] {
 }
 
 function ofJoint(joint: string, on: string, at: number): Chart[] {
-  const force = components("F", "N", (s, k) => s.forces[at]?.force[k], "force");
+  const reaction = (symbol: string, unit: string, what: "force" | "moment"): Curve[] =>
+    components(
+      symbol,
+      unit,
+      (s, k) => s.forces[at]?.[what][k],
+      what,
+      (frame, k) => reactionIn(frame, at, what, k),
+    );
+  const force = reaction("F", "N", "force");
   return [
     { label: t("Force in {joint} on {on}", { joint, on }), curves: force },
     {
       label: t("Moment in {joint} on {on}", { joint, on }),
-      curves: components("M", "N m", (s, k) => s.forces[at]?.moment[k], "moment"),
+      curves: reaction("M", "N m", "moment"),
     },
     hodograph(t("Hodograph of the force in {joint} on {on}", { joint, on }), force),
   ];

@@ -1,13 +1,13 @@
 // The extremes of a plot: marked on the time line, told with their values, and passed slowly.
 
-import type { SessionState } from "../../api/types";
 import { h } from "../../core/dom";
 import { num, seconds } from "../../core/format";
 import { t } from "../../core/texts";
 import type { Session } from "../../session/session";
 import type { Mark } from "../../session/slow";
 import type { Chart } from "./charts";
-import { type Extreme, extremes } from "./extremes";
+import { DECIMALS, DIGITS, type Extreme, extremes } from "./extremes";
+import type { Samples } from "./samples";
 
 const KINDS: Record<Extreme["kind"], () => string> = {
   largest: () => t("largest"),
@@ -41,8 +41,8 @@ export class ExtremeMarks {
   ) {}
 
   /** Marks what the curves have shown so far. */
-  update(chart: Chart, states: readonly SessionState[]): void {
-    const marks = this.on ? marksOf(chart, states) : [];
+  update(chart: Chart, samples: Samples): void {
+    const marks = this.on ? marksOf(chart, samples) : [];
     const told = marks.map(({ words }) => words).join("\n");
     if (told === this.told) return;
     this.told = told;
@@ -72,18 +72,25 @@ export class ExtremeMarks {
   }
 }
 
-function marksOf(chart: Chart, states: readonly SessionState[]): Mark[] {
-  const times = states.map((state) => state.time);
+/** The extremes of the curves, in words: those that lie between samples far apart are told roughly. */
+export function marksOf(chart: Chart, samples: Samples): Mark[] {
   return chart.curves
     .flatMap((curve) =>
-      extremes(times, states.map(curve.of)).map(({ time, value, kind }) => ({
+      extremes(samples.times, samples.of(curve)).map(({ time, value, kind, sure }) => ({
         time,
-        words: t("{curve} {kind} {value} at {time}", {
-          curve: curve.label,
-          kind: KINDS[kind](),
-          value: `${num(value, 4)} ${curve.unit}`.trim(),
-          time: seconds(time, 2),
-        }),
+        words: sure
+          ? t("{curve} {kind} {value} at {time}", {
+              curve: curve.label,
+              kind: KINDS[kind](),
+              value: `${num(value, DIGITS)} ${curve.unit}`.trim(),
+              time: seconds(time, DECIMALS),
+            })
+          : t("{curve} {kind} about {value} near {time}", {
+              curve: curve.label,
+              kind: KINDS[kind](),
+              value: `${num(value, 2)} ${curve.unit}`.trim(),
+              time: seconds(time, 1),
+            }),
       })),
     )
     .sort((a, b) => a.time - b.time);

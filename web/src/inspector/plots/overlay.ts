@@ -1,19 +1,25 @@
 // Curves that are laid over those of the run: an earlier run that was kept, or a reference from a file.
 
-import type { SessionState } from "../../api/types";
 import { sci } from "../../core/format";
 import { t } from "../../core/texts";
-import { type Chart, type Curve, errorOf } from "./charts";
+import type { Chart, Curve } from "./charts";
 import { type Columns, difference, resample } from "./compare";
+import { type Known, type Samples, samplesOf } from "./samples";
 import type { Line } from "./svg-file";
 
 export interface Overlay {
   name: string;
   /** What a legend calls it. */
   short: string;
+  /** What it knows of curve number k of a plot, if anything. */
+  of: (chart: Chart, curve: Curve, k: number) => Values | undefined;
+}
+
+interface Values {
   times: number[];
-  /** Its values of curve number k of a plot, if it has any. */
-  of: (chart: Chart, curve: Curve, k: number) => number[] | undefined;
+  values: number[];
+  /** Between which of them a line only joins. */
+  apart: boolean[];
 }
 
 /** Custom properties of the style sheet for the curves of a plot, in turn. */
@@ -29,12 +35,14 @@ const OVERLAY_DASHES = [
 const DIFFERENCE_DASHES = [[], [8, 3]];
 
 /** A run that goes on to be shown beside later ones. */
-export function keptRun(name: string, states: SessionState[]): Overlay {
+export function keptRun(name: string, run: Known): Overlay {
   return {
     name: t("Kept: {name}", { name }),
     short: t("kept"),
-    times: states.map((state) => state.time),
-    of: (_, curve) => states.map(curve.of),
+    of: (chart, curve) => {
+      const { times, apart, of } = samplesOf(chart, run);
+      return { times, apart, values: of(curve) };
+    },
   };
 }
 
@@ -49,9 +57,12 @@ export function reference(name: string, { times, columns }: Columns, charts: Cha
   return {
     name,
     short: t("reference"),
-    times,
-    of: (chart, curve, k) =>
-      (named ? columns.find((column) => names(column.label, chart.label, curve.label)) : columns[k])?.values,
+    of: (chart, curve, k) => {
+      const own = named
+        ? columns.find((column) => names(column.label, chart.label, curve.label))
+        : columns[k];
+      return own && { times, apart: [], values: own.values };
+    },
   };
 }
 
@@ -75,23 +86,22 @@ export interface Comparison {
 /** A plot of the run with what is laid over it, or of the run less the overlays. */
 export function compare(
   chart: Chart,
-  states: readonly SessionState[],
+  samples: Samples,
   overlays: Overlay[],
   differences: boolean,
 ): Comparison {
-  const times = states.map((state) => state.time);
+  const { times } = samples;
   const largest = overlays.map((): string[] => []);
   const lines = chart.curves.flatMap((curve, k): Line[] => {
-    const now = states.map(curve.of);
+    const now = samples.of(curve);
     const color = COLORS[k % COLORS.length] ?? "--ink";
     const dash = DASHES[k % DASHES.length] ?? [];
-    const errors = states.map((state) => errorOf(curve, state) ?? null);
     const line: Line = { label: curve.label, unit: curve.unit, values: now, color, dash };
-    if (curve.error) line.errors = errors;
+    if (curve.error) line.errors = samples.errors(curve);
     const others = overlays.flatMap((overlay, at): Line[] => {
-      const values = overlay.of(chart, curve, k);
-      if (!values) return [];
-      const other = resample(overlay.times, values, times);
+      const known = overlay.of(chart, curve, k);
+      if (!known) return [];
+      const other = resample(known.times, known.values, times);
       const apart = difference(now, other);
       largest[at]?.push(`${curve.label} ${sci(apart.largest, 3)} ${curve.unit}`.trim());
       return differences

@@ -5,6 +5,7 @@ import type { Session } from "../../session/session";
 import type { Chart } from "./charts";
 import type { Overlay } from "./overlay";
 import { nearest, type PhasePlot, phasePlot, phaseSvg } from "./phase";
+import type { Samples } from "./samples";
 import type { Colors } from "./svg-file";
 
 /** Height of the plot, px; on a file both sides. */
@@ -29,9 +30,9 @@ export class PhaseView {
     });
   }
 
-  draw(chart: Chart, states: readonly SessionState[], now: SessionState, kept: Overlay | undefined): void {
-    this.plot = phasePlot(chart, states, now, kept);
-    this.times = states.map(({ time }) => time);
+  draw(chart: Chart, samples: Samples, now: SessionState, kept: Overlay | undefined): void {
+    this.plot = phasePlot(chart, samples, now, kept);
+    this.times = samples.times;
     this.place.innerHTML = phaseSvg(
       this.plot,
       this.colors(),

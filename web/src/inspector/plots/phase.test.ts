@@ -2,12 +2,19 @@ import { describe, expect, it } from "vitest";
 import { state } from "../../testing/state";
 import { charts, quantities } from "./charts";
 import { nearest, phasePlot, phaseSvg, scales } from "./phase";
+import type { Samples } from "./samples";
 
 const first = state(0, 0);
 const states = [0, 1, 2, 3].map((k) => state(k, Math.cos(k)));
+const samples: Samples = {
+  times: [0, 1, 2, 3],
+  of: (curve) => states.map(curve.of),
+  errors: () => [],
+  apart: [false, false, false],
+};
 const chart = charts(first).find(({ label }) => label === "Phase plot of bob");
 if (!chart) throw new Error("no phase plot is offered");
-const plot = phasePlot(chart, states, states[1] ?? first);
+const plot = phasePlot(chart, samples, states[1] ?? first);
 
 describe("quantities over each other", () => {
   it("are the place and its rate for a phase plot, and two components of one vector for a hodograph", () => {
@@ -15,7 +22,7 @@ describe("quantities over each other", () => {
     expect(plot.axes).toEqual(["m", "m/s"]);
     expect(plot.equal).toBe(false);
     const path = charts(first).find(({ label }) => label === "Path of bob");
-    const drawn = path && phasePlot(path, states, first);
+    const drawn = path && phasePlot(path, samples, first);
     expect(drawn?.ways.map(({ label }) => label)).toEqual(["y over x", "z over x", "z over y"]);
     expect(drawn?.equal).toBe(true);
     expect(path && quantities(path).map(({ label }) => label)).toEqual(["x", "y", "z"]);
@@ -42,5 +49,23 @@ describe("quantities over each other", () => {
     expect(text).not.toContain("NaN");
     expect(text.match(/C[\d.-]/g)).toHaveLength(3);
     expect(text.match(/<circle/g)).toHaveLength(2);
+  });
+
+  it("are joined straight and thin where samples lie far apart, with a mark on each side", () => {
+    const colors = { ink: "#000", line: "#ccc", paper: "#fff" };
+    const way = (apart: boolean[]): string =>
+      phaseSvg(
+        { ...plot, ways: plot.ways.slice(0, 1).map((one) => ({ ...one, apart })) },
+        colors,
+        () => "#123456",
+        600,
+        340,
+      );
+    const text = way([false, true, false]);
+    const join = text.match(/<path class="join" d="([^"]*)"/)?.[1];
+    expect(join?.match(/[A-Z]/g)?.join("")).toBe("ML");
+    expect(text.match(/C[\d.-]/g)).toHaveLength(2);
+    expect(text.match(/<circle/g)).toHaveLength(4);
+    expect(way([false, false, false])).not.toContain("join");
   });
 });

@@ -4,7 +4,8 @@ import type { SessionState } from "../../api/types";
 import { t } from "../../core/texts";
 import type { Chart, Curve } from "./charts";
 import type { Overlay } from "./overlay";
-import { type Colors, legendEntry, mesh, openSvg } from "./svg-file";
+import { lonely, type Samples } from "./samples";
+import { type Colors, disc, JOIN_DASH, legendEntry, mesh, openSvg } from "./svg-file";
 
 /** A way through a plane. */
 export interface Way {
@@ -13,6 +14,8 @@ export interface Way {
   dash: number[];
   x: number[];
   y: number[];
+  /** Between which points a line only joins. */
+  apart: boolean[];
   /** Where it is at the moment that is shown. */
   now?: [number, number];
 }
@@ -32,12 +35,7 @@ const KEPT_DASH = [3, 5];
 const LEGEND_ENTRY = 150;
 
 /** The plot of a chart whose quantities stand over each other; kept runs beside the run. */
-export function phasePlot(
-  chart: Chart,
-  states: readonly SessionState[],
-  now: SessionState,
-  kept?: Overlay,
-): PhasePlot {
+export function phasePlot(chart: Chart, samples: Samples, now: SessionState, kept?: Overlay): PhasePlot {
   const across = chart.across ?? [];
   const pairs = chart.curves.map((curve, k): [Curve, Curve] => [across[k] ?? curve, curve]);
   const ways = pairs.flatMap(([x, y], k): Way[] => {
@@ -47,22 +45,28 @@ export function phasePlot(
       label,
       color,
       dash: [],
-      x: states.map(x.of),
-      y: states.map(y.of),
+      x: samples.of(x),
+      y: samples.of(y),
+      apart: samples.apart,
       now: [x.of(now), y.of(now)],
     };
     const [kx, ky] = [kept?.of(chart, x, k), kept?.of(chart, y, k)];
     if (!kept || !kx || !ky) return [own];
     return [
       own,
-      { label: `${label}, ${kept.short}`, color, dash: KEPT_DASH, x: numbers(kx), y: numbers(ky) },
+      {
+        label: `${label}, ${kept.short}`,
+        color,
+        dash: KEPT_DASH,
+        x: kx.values,
+        y: ky.values,
+        apart: kx.apart,
+      },
     ];
   });
   const [x, y] = pairs[0] ?? [];
   return { title: chart.label, axes: [x?.unit ?? "", y?.unit ?? ""], equal: x?.unit === y?.unit, ways };
 }
-
-const numbers = (values: (number | null)[]): number[] => values.map((value) => value ?? NaN);
 
 /** Where the values of a plot lie on a picture. */
 export function scales(
@@ -127,32 +131,17 @@ export function phaseSvg(
   const place = frame(width, height);
   const drawn = plot.ways.map((way) => {
     const points = way.x
-      .map((value, k) => [value, way.y[k] ?? NaN] as const)
+      .map((value, k): Point => [x(value), y(way.y[k] ?? NaN), k])
       .filter(([a, b]) => Number.isFinite(a) && Number.isFinite(b));
-    const line = smooth(points.map(([a, b]) => [x(a), y(b)]));
-    const dashes = way.dash.length > 0 ? ` stroke-dasharray="${way.dash.join(" ")}"` : "";
+    const ink = color(way.color);
     const start =
       points[0] && !way.dash.length
-        ? disc(
-            x(points[0][0]),
-            y(points[0][1]),
-            3,
-            `fill="${colors.paper}" stroke="${color(way.color)}" stroke-width="1.5"`,
-          )
+        ? disc(points[0][0], points[0][1], 3, `fill="${colors.paper}" stroke="${ink}" stroke-width="1.5"`)
         : "";
     const now = way.now?.every(Number.isFinite)
-      ? disc(
-          x(way.now[0]),
-          y(way.now[1]),
-          5,
-          `fill="${color(way.color)}" stroke="${colors.paper}" stroke-width="1.5"`,
-        )
+      ? disc(x(way.now[0]), y(way.now[1]), 5, `fill="${ink}" stroke="${colors.paper}" stroke-width="1.5"`)
       : "";
-    return (
-      (line && `<path d="M${line}" fill="none" stroke="${color(way.color)}" stroke-width="2"${dashes}/>`) +
-      start +
-      now
-    );
+    return line(way, points, ink) + start + now;
   });
   return [
     openSvg(plot.title, width, height, 13, colors),
@@ -165,19 +154,43 @@ export function phaseSvg(
   ].join("");
 }
 
-/** A line through all points that has no corners: between two it is bent as its neighbours ask (Catmull and Rom). */
-function smooth(points: [number, number][]): string {
-  const at = (k: number): [number, number] => points[Math.max(0, Math.min(points.length - 1, k))] ?? [0, 0];
-  const written = (...numbers: number[]): string => numbers.map((value) => value.toFixed(1)).join(" ");
-  const bends = points.slice(1).map(([x2, y2], k) => {
-    const [[x0, y0], [x1, y1], [x3, y3]] = [at(k - 1), at(k), at(k + 2)];
-    return `C${written(x1 + (x2 - x0) / 6, y1 + (y2 - y0) / 6, x2 - (x3 - x1) / 6, y2 - (y3 - y1) / 6, x2, y2)}`;
-  });
-  return points.length > 1 ? written(...at(0)) + bends.join("") : "";
-}
+/** A point of the picture, px, and which sample it is of. */
+type Point = [x: number, y: number, sample: number];
 
-const disc = (x: number, y: number, r: number, ink: string): string =>
-  `<circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="${r}" ${ink}/>`;
+/**
+ * A line through all points. Where samples lie close it has no corners: between two it is bent as its neighbours ask (Catmull and
+ * Rom). Those that are far apart are marked, and joined straight.
+ */
+function line({ apart, dash }: Way, points: Point[], ink: string): string {
+  if (points.length < 2) return "";
+  const joined = (k: number): boolean => apart[(points[k]?.[2] ?? 0) - 1] === true;
+  const written = (...numbers: number[]): string => numbers.map((value) => value.toFixed(1)).join(" ");
+  const at = (k: number): Point => points[k] ?? [0, 0, 0];
+  const parts = points.slice(1).map(([x2, y2], before) => {
+    const [k, [x1, y1]] = [before + 1, at(before)];
+    if (joined(k)) return { join: `M${written(x1, y1)}L${written(x2, y2)}`, bend: `M${written(x2, y2)}` };
+    // What lies beyond a gap asks for no bend.
+    const [x0, y0] = k < 2 || joined(k - 1) ? [x1, y1] : at(k - 2);
+    const [x3, y3] = k + 1 >= points.length || joined(k + 1) ? [x2, y2] : at(k + 1);
+    const ends = written(
+      x1 + (x2 - x0) / 6,
+      y1 + (y2 - y0) / 6,
+      x2 - (x3 - x1) / 6,
+      y2 - (y3 - y1) / 6,
+      x2,
+      y2,
+    );
+    return { join: "", bend: `C${ends}` };
+  });
+  const path = (d: string, width: number, dashes: number[], more = ""): string =>
+    `<path${more} d="${d}" fill="none" stroke="${ink}" stroke-width="${width}"` +
+    `${dashes.length > 0 ? ` stroke-dasharray="${dashes.join(" ")}"` : ""}/>`;
+  const bends = `M${written(at(0)[0], at(0)[1])}${parts.map(({ bend }) => bend).join("")}`;
+  const joins = parts.map(({ join }) => join).join("");
+  const alone = new Set(lonely(apart));
+  const marks = points.filter(([, , k]) => alone.has(k)).map(([x, y]) => disc(x, y, 2, `fill="${ink}"`));
+  return path(bends, 2, dash) + (joins && path(joins, 1, JOIN_DASH, ' class="join"')) + marks.join("");
+}
 
 /** Which of the moments is nearest to a point of the picture. */
 export function nearest(

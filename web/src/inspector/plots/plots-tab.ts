@@ -16,6 +16,7 @@ import { ExtremeMarks } from "./marks";
 import { type Comparison, compare, keptRun, type Overlay, reference } from "./overlay";
 import { PhaseView } from "./phase-view";
 import { tableDialog } from "./run-table";
+import { type Samples, samplesOf } from "./samples";
 import { plotSvg } from "./svg-file";
 
 /** About how many states the table of a plot shows. */
@@ -27,6 +28,12 @@ export class PlotsTab implements Panel {
   private readonly canvas = h("div", { class: "plot" });
   /** The largest differences between the run and what is laid over it. */
   private readonly apart = h("p", { class: "when", role: "status" });
+  /** What the thin parts of the curves mean. */
+  private readonly joined = h(
+    "p",
+    { class: "help", hidden: true },
+    t("Discs mark what is known of the curves; a thin line only joins those that are far apart."),
+  );
   /** The values at the time that is shown. */
   private readonly readout = h("p", { class: "readout" });
   private readonly table = h("details", { class: "as-table" }, h("summary", null, t("The same as a table")));
@@ -91,7 +98,7 @@ export class PlotsTab implements Panel {
     this.offer(state);
     const chart = this.chart();
     if (!chart) return;
-    const states = this.session.past.all;
+    const samples = samplesOf(chart, this.session);
     const values = quantities(chart).map((curve) => {
       const error = errorOf(curve, state);
       const within = error === undefined ? "" : ` ± ${sci(error, 1)}`;
@@ -101,14 +108,15 @@ export class PlotsTab implements Panel {
       time: seconds(state.time),
       values: values.join(",  "),
     });
-    this.fillTable(chart, states);
-    this.marks.update(chart, states);
-    if (states.length < 2)
+    this.fillTable(chart, samples);
+    this.marks.update(chart, samples);
+    this.joined.hidden = !samples.apart.includes(true);
+    if (samples.times.length < 2)
       this.canvas.replaceChildren(
         empty(t("Nothing to plot yet"), t("Play or step the run: the curves grow with it.")),
       );
-    else if (chart.across) this.phase.draw(chart, states, state, this.kept);
-    else this.draw(chart, states);
+    else if (chart.across) this.phase.draw(chart, samples, state, this.kept);
+    else this.draw(chart, samples);
   }
 
   private layout(): HTMLElement {
@@ -136,6 +144,7 @@ export class PlotsTab implements Panel {
         ),
       ),
       this.canvas,
+      this.joined,
       this.marks.root,
       this.apart,
       this.readout,
@@ -158,14 +167,14 @@ export class PlotsTab implements Panel {
     );
   }
 
-  private draw(chart: Chart, states: readonly SessionState[]): void {
+  private draw(chart: Chart, samples: Samples): void {
     const { plotter } = this;
     if (!plotter) {
       void this.loadPlotter();
       return;
     }
     const theme = document.documentElement.dataset.theme ?? "";
-    const { lines } = this.compared(chart, states);
+    const { lines } = this.compared(chart, samples);
     plotter.draw(this.canvas, {
       key: [
         chart.label,
@@ -178,8 +187,9 @@ export class PlotsTab implements Panel {
       ].join("|"),
       log: chart.log === true && this.mode.value === "both",
       cursor: this.session.time,
-      times: states.map((entry) => entry.time),
+      times: samples.times,
       curves: lines,
+      apart: samples.apart,
       seek: (time) => this.session.seek(time),
     });
   }
@@ -191,14 +201,14 @@ export class PlotsTab implements Panel {
     this.refresh();
   }
 
-  private compared(chart: Chart, states: readonly SessionState[]): Comparison {
+  private compared(chart: Chart, samples: Samples): Comparison {
     const overlays = [this.kept, this.reference].filter((one) => one !== undefined);
-    const compared = compare(chart, states, overlays, this.mode.value === "difference");
+    const compared = compare(chart, samples, overlays, this.mode.value === "difference");
     setText(this.apart, compared.text);
     return compared;
   }
 
-  private fillTable(chart: Chart, states: readonly SessionState[]): void {
+  private fillTable(chart: Chart, { times, of }: Samples): void {
     if (!this.table.open) return;
     if (this.rows?.label !== chart.label) {
       this.rows?.table.root.remove();
@@ -206,21 +216,21 @@ export class PlotsTab implements Panel {
       this.rows = { table: liveTable(chart.label, t("Time"), columns, true), label: chart.label };
       this.table.append(this.rows.table.root);
     }
-    const stride = Math.max(1, Math.ceil(states.length / TABLE_ROWS));
+    const stride = Math.max(1, Math.ceil(times.length / TABLE_ROWS));
+    const columns = quantities(chart).map(of);
     this.rows.table.update(
-      states
-        .filter((_, k) => k % stride === 0 || k === states.length - 1)
-        .map((entry) => ({
-          head: seconds(entry.time),
-          cells: quantities(chart).map((curve) => sci(curve.of(entry), 5)),
-        })),
+      times.flatMap((time, k) =>
+        k % stride === 0 || k === times.length - 1
+          ? [{ head: seconds(time), cells: columns.map((column) => sci(column[k] ?? NaN, 5)) }]
+          : [],
+      ),
     );
   }
 
   /** Keeps this run to lay it over the next one, or drops the kept one. */
   private keep(): void {
     const name = runName(this.session);
-    this.kept = this.kept ? undefined : keptRun(name, [...this.session.past.all]);
+    this.kept = this.kept ? undefined : keptRun(name, this.session.copy());
     this.session.showGhost(this.kept && keptGhost(this.session, name));
     this.paintOverlays();
   }
@@ -263,12 +273,12 @@ export class PlotsTab implements Panel {
   private saveCsv(): void {
     const chart = this.chart();
     if (!chart) return;
+    const { times, of } = samplesOf(chart, this.session);
+    const columns = quantities(chart).map(of);
     const lines = [
       [t("time"), ...quantities(chart).map((curve) => curve.label)].join(","),
       ["s", ...quantities(chart).map((curve) => curve.unit || "1")].join(","),
-      ...this.session.past.all.map((entry) =>
-        [entry.time, ...quantities(chart).map((curve) => curve.of(entry))].join(","),
-      ),
+      ...times.map((time, k) => [time, ...columns.map((column) => written(column[k] ?? NaN))].join(",")),
     ];
     saveFile(new Blob([`${lines.join("\n")}\n`], { type: "text/csv" }), fileName(chart, "csv"));
   }
@@ -276,7 +286,7 @@ export class PlotsTab implements Panel {
   private saveSvg(): void {
     const chart = this.chart();
     if (!chart) return;
-    const states = this.session.past.all;
+    const samples = samplesOf(chart, this.session);
     const css = getComputedStyle(this.canvas);
     const color = (name: string): string => css.getPropertyValue(name).trim();
     const title = `${chart.label}, ${runName(this.session)}`;
@@ -288,9 +298,10 @@ export class PlotsTab implements Panel {
     }
     const text = plotSvg(
       title,
-      states.map((entry) => entry.time),
-      this.compared(chart, states).lines.map((line) => ({ ...line, color: color(line.color) })),
+      samples.times,
+      this.compared(chart, samples).lines.map((line) => ({ ...line, color: color(line.color) })),
       colors,
+      samples.apart,
     );
     saveFile(new Blob([text], { type: "image/svg+xml" }), fileName(chart, "svg"));
   }
@@ -310,6 +321,10 @@ function runName(session: Session): string {
   );
   return changed.length > 0 ? changed.join(", ") : t("the scene as its author wrote it");
 }
+
+/** A number with the digits that it has: those of a frame are in single precision. */
+const written = (value: number): number =>
+  Math.fround(value) === value ? Number(value.toPrecision(8)) : value;
 
 const fileName = (chart: Chart, ending: string): string =>
   `${chart.label.toLowerCase().replaceAll(" ", "-")}.${ending}`;

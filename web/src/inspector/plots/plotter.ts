@@ -3,7 +3,8 @@
 import uPlot from "uplot";
 import { t } from "../../core/texts";
 import "uplot/dist/uPlot.min.css";
-import type { Line } from "./svg-file";
+import { lonely } from "./samples";
+import { JOIN_DASH, type Line } from "./svg-file";
 
 export interface Plot {
   /** A change of this key builds the plot anew. */
@@ -12,14 +13,23 @@ export interface Plot {
   cursor: number;
   times: number[];
   curves: Line[];
+  /** Between which times a line only joins marks. */
+  apart: readonly boolean[];
   seek: (time: number) => void;
 }
 
 /** An edge of a band: not drawn itself, and not in the legend. */
 const EDGE: uPlot.Series = { class: "edge", width: 0, points: { show: false } };
+/** Diameter of the mark at a sample, px. */
+const MARK = 5;
 /** Height of a plot, px. */
 const HEIGHT = 260;
-const plots = new WeakMap<HTMLElement, { key: string; plot: uPlot; cursor: { at: number } }>();
+/** What changes while a plot stands. */
+interface Live {
+  at: number;
+  apart: readonly boolean[];
+}
+const plots = new WeakMap<HTMLElement, { key: string; plot: uPlot; live: Live }>();
 
 export function draw(place: HTMLElement, drawing: Plot): void {
   const values = drawing.curves.map((curve) =>
@@ -27,16 +37,16 @@ export function draw(place: HTMLElement, drawing: Plot): void {
       Number.isFinite(value) && !(drawing.log && Number(value) <= 0) ? value : null,
     ),
   );
-  const data: uPlot.AlignedData = [drawing.times, ...values, ...banded(drawing).flatMap(edges)];
+  const data: uPlot.AlignedData = [drawing.times, ...values, ...values, ...banded(drawing).flatMap(edges)];
   let entry = plots.get(place);
   if (entry?.key !== drawing.key || !place.contains(entry.plot.root)) {
     entry?.plot.destroy();
     place.replaceChildren();
-    const cursor = { at: drawing.cursor };
-    entry = { key: drawing.key, cursor, plot: build(place, drawing, data, cursor) };
+    const live = { at: drawing.cursor, apart: drawing.apart };
+    entry = { key: drawing.key, live, plot: build(place, drawing, data, live) };
     plots.set(place, entry);
   }
-  entry.cursor.at = drawing.cursor;
+  Object.assign(entry.live, { at: drawing.cursor, apart: drawing.apart });
   if (entry.plot.width !== place.clientWidth && place.clientWidth > 0)
     entry.plot.setSize({ width: place.clientWidth, height: HEIGHT });
   entry.plot.setData(data);
@@ -55,7 +65,7 @@ function edges({ values, errors }: Line): (number | null)[][] {
   );
 }
 
-function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, cursor: { at: number }): uPlot {
+function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, live: Live): uPlot {
   const css = getComputedStyle(place);
   const color = (name: string): string => css.getPropertyValue(name).trim();
   const font = `12px ${css.fontFamily}`;
@@ -93,16 +103,19 @@ function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, curso
             width: 2,
             dash: curve.dash,
             points: { show: false },
+            gaps: (self, _, from, to, gaps) =>
+              [...gaps, ...joins(self, live.apart, from, to)].sort((a, b) => a[0] - b[0]),
             value: (_, value) => (value === null ? "–" : short(value)),
           }),
         ),
+        ...drawing.curves.map((curve) => joining(curve, color(curve.color), live)),
         ...bands.flatMap(() => [EDGE, EDGE]),
       ],
       bands: bands.map((curve, k) => ({
-        series: [1 + drawing.curves.length + 2 * k, 2 + drawing.curves.length + 2 * k],
+        series: [1 + 2 * drawing.curves.length + 2 * k, 2 + 2 * drawing.curves.length + 2 * k],
         fill: `color-mix(in srgb, ${color(curve.color)} 22%, transparent)`,
       })),
-      hooks: { draw: [(self) => drawCursor(self, cursor.at, color("--accent"))] },
+      hooks: { draw: [(self) => drawCursor(self, live.at, color("--accent"))] },
       cursor: { drag: { x: false, y: false } },
       legend: { live: false },
     },
@@ -112,6 +125,33 @@ function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, curso
   plot.over.addEventListener("click", (event) => drawing.seek(plot.posToVal(event.offsetX, "x")));
   return plot;
 }
+
+/** Where a curve is not known, px of the canvas. */
+function joins(plot: uPlot, apart: readonly boolean[], from: number, to: number): [number, number][] {
+  const x = (k: number): number => plot.valToPos(plot.data[0][k] ?? 0, "x", true);
+  return apart.flatMap((gap, k): [number, number][] =>
+    gap && k >= from && k < to ? [[x(k), x(k + 1)]] : [],
+  );
+}
+
+/** The thin line below a curve, seen where that breaks off, with marks at the samples beside. */
+const joining = (curve: Line, stroke: string, live: Live): uPlot.Series => ({
+  class: "edge",
+  stroke,
+  width: 1,
+  dash: curve.dash.length > 0 ? curve.dash : JOIN_DASH,
+  gaps: (self, _, from, to, gaps) => {
+    // Elsewhere its dashes would fill those of the curve.
+    const close = live.apart.map((gap) => !gap);
+    return [...gaps, ...joins(self, close, from, to)].sort((a, b) => a[0] - b[0]);
+  },
+  points: {
+    show: () => live.apart.includes(true),
+    filter: () => lonely(live.apart),
+    size: MARK,
+    fill: stroke,
+  },
+});
 
 /** The line at the time that the page shows. */
 function drawCursor(plot: uPlot, time: number, color: string): void {

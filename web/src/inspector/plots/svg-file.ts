@@ -1,5 +1,6 @@
 // A plot as an SVG file.
 import { t } from "../../core/texts";
+import { lonely } from "./samples";
 
 export interface Line {
   label: string;
@@ -11,6 +12,8 @@ export interface Line {
   errors?: (number | null)[];
 }
 
+/** Dashes of a line that only joins samples which are far apart. */
+export const JOIN_DASH = [1, 3];
 /** Size of the picture, px. */
 const WIDTH = 900;
 const HEIGHT = 520;
@@ -33,7 +36,13 @@ export interface Colors {
 }
 
 /** A plot as a file of its own, readable in print and on a slide. */
-export function plotSvg(title: string, times: number[], lines: Line[], colors: Colors): string {
+export function plotSvg(
+  title: string,
+  times: number[],
+  lines: Line[],
+  colors: Colors,
+  apart: readonly boolean[] = [],
+): string {
   const numbers = lines.flatMap((line) =>
     line.values.filter((value): value is number => value !== null && Number.isFinite(value)),
   );
@@ -54,7 +63,7 @@ export function plotSvg(title: string, times: number[], lines: Line[], colors: C
       colors,
     ),
     ...lines.map((line) => band(line, (k) => x(times[k] ?? 0), y)),
-    ...lines.map((line) => curve(line, (k) => x(times[k] ?? 0), y)),
+    ...lines.map((line) => curve(line, (k) => x(times[k] ?? 0), y, apart)),
     ...lines.flatMap((line, k) => legendEntry(line, LEFT + k * LEGEND_ENTRY, 30, colors)),
   ];
   return [openSvg(title, WIDTH, HEIGHT, 16, colors), ...parts, "</svg>\n"].join("");
@@ -91,19 +100,38 @@ export function mesh(
   ];
 }
 
-/** A line through all finite values; it breaks where there is none. */
-function curve(line: Line, x: (k: number) => number, y: (value: number) => number): string {
+/** A line through all finite values; it breaks where there is none, and is thin where it only joins marks. */
+function curve(
+  line: Line,
+  x: (k: number) => number,
+  y: (value: number) => number,
+  apart: readonly boolean[],
+): string {
   let pen = "M";
+  const joins: string[] = [];
   const points = line.values.map((value, k) => {
     if (value === null || !Number.isFinite(value)) {
       pen = "M";
       return "";
     }
-    const point = `${pen}${r(x(k))} ${r(y(value))}`;
+    const at = `${r(x(k))} ${r(y(value))}`;
+    const before = line.values[k - 1];
+    if (pen === "L" && apart[k - 1] && typeof before === "number") {
+      joins.push(`M${r(x(k - 1))} ${r(y(before))}L${at}`);
+      pen = "M";
+    }
+    const point = `${pen}${at}`;
     pen = "L";
     return point;
   });
-  return `<path d="${points.join("")}" fill="none" stroke="${line.color}" stroke-width="2.5"${dashes(line)}/>`;
+  const dash = ` stroke-dasharray="${(line.dash.length > 0 ? line.dash : JOIN_DASH).join(" ")}"`;
+  const join =
+    joins.length > 0 ? `<path d="${joins.join("")}" fill="none" stroke="${line.color}"${dash}/>` : "";
+  const marks = lonely(apart).flatMap((k) => {
+    const value = line.values[k] ?? NaN;
+    return Number.isFinite(value) ? [disc(x(k), y(value), 2.5, `fill="${line.color}"`)] : [];
+  });
+  return `${join}${marks.join("")}<path d="${points.join("")}" fill="none" stroke="${line.color}" stroke-width="2.5"${dashes(line)}/>`;
 }
 
 /** The strip within the estimated error; it breaks where that is not known. */
@@ -136,6 +164,9 @@ export function legendEntry(
     text(`x="${left + 36}" y="${top + 5}"`, `${line.label}${line.unit ? `, ${line.unit}` : ""}`, colors),
   ];
 }
+
+export const disc = (x: number, y: number, r: number, ink: string): string =>
+  `<circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="${r}" ${ink}/>`;
 
 const dashes = ({ dash }: Pick<Line, "dash">): string =>
   dash.length > 0 ? ` stroke-dasharray="${dash.join(" ")}"` : "";

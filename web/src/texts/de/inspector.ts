@@ -317,6 +317,9 @@ export const inspector = {
     "Markiert auf der Zeitleiste, wo diese Kurven am größten und am kleinsten sind und wo sie umkehren; eine Wiederholung geht dort langsam",
   "Mark the extremes": "Extreme markieren",
   "{curve} {kind} {value} at {time}": "{curve} {kind} {value} bei {time}",
+  "{curve} {kind} about {value} near {time}": "{curve} {kind} etwa {value} um {time}",
+  "Discs mark what is known of the curves; a thin line only joins those that are far apart.":
+    "Scheiben markieren, was von den Kurven bekannt ist; eine dünne Linie verbindet nur, was weit auseinanderliegt.",
   "{y} over {x}": "{y} über {x}",
   "Phase plot of {name}": "Phasenbild von {name}",
   "Path of {name}": "Bahn von {name}",
