@@ -30,6 +30,8 @@ const CALLERS: usize = 4;
 const ROUNDS: usize = 4;
 /// Between two rounds of one who asks, where it is measured: with four of them 200 students ask 50 times a second.
 const PAUSE: Duration = Duration::from_millis(350);
+/// After the last session, where it is measured: what runs held has gone back to the system.
+const GIVEN_BACK: Duration = Duration::from_secs(40);
 /// Bytes that one run keeps of what it has passed, and all of them together (`server/src/limits.rs`), but for the newest block
 /// of each.
 const ONE_KEEPS: usize = 17 << 20;
@@ -181,6 +183,7 @@ fn a_class_plays_and_watches_while_it_asks_and_hands_in() {
     }
     // Threads of the runtime for what blocks, and connections to the gradebook, come and go; of each session nothing is left.
     settles(&server, &log, threads + 16.0, files + 16);
+    std::thread::sleep(wanted.map_or(Duration::ZERO, |_| GIVEN_BACK));
     println!(
         "  afterwards: {:.0} MB, {:.0} threads ({threads:.0} before)",
         server.memory(),
