@@ -29,7 +29,7 @@ pub use in_chart::{Bridged, Chart, IndependentCoordinates, Start};
 pub use integrator::Integrator;
 pub use penalty::{Penalty, PenaltyParameters};
 pub use power::{add_power, power};
-pub use radau::{ORDER_5, ORDER_9, ORDER_13, Radau, Tables};
+pub use radau::{RADAU_5, RADAU_9, RADAU_13, Radau, RadauTables};
 pub use rattle::Rattle;
 pub use step::{StepRecord, Steps, StopReason};
 pub use stepper::{IslandStep, OdeMethod, SkippedWork, Stepper};

@@ -25,7 +25,7 @@ pub use explain::SkippedItem;
 pub use frame::{Frame, MarkerFrame};
 pub use outputs::{Column, Outputs};
 pub use singularity::SingularConfiguration;
-pub use snapshot::Snapshot;
+pub use snapshot::{Snapshot, list_size};
 pub use state_view::StateView;
 pub use summary::Summary;
 

@@ -7,7 +7,7 @@ use super::driven::Driven;
 use super::explicit::{DOP853, DOPRI5, Explicit};
 use super::in_chart::{Bridged, Chart, IndependentCoordinates, Start};
 use super::penalty::{Penalty, PenaltyParameters};
-use super::radau::{ORDER_5, Radau};
+use super::radau::{RADAU_5, Radau};
 use super::rattle::Rattle;
 use super::step::{StepRecord, StopReason};
 use super::stepper::Stepper;
@@ -187,7 +187,7 @@ impl Start for StartRadau {
 
     fn start(&self, mut system: &mut dyn OdeSystem, t: f64, x: &[f64]) -> Radau {
         match self.step {
-            Some(h) => Radau::with_step(&ORDER_5, &mut system, t, x, self.tolerance, h),
+            Some(h) => Radau::with_step(&RADAU_5, &mut system, t, x, self.tolerance, h),
             None => Radau::new(&mut system, t, x, self.tolerance),
         }
     }

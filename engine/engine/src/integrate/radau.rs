@@ -13,7 +13,7 @@ mod stages;
 
 use super::step::{MIN_ERROR, SAFETY, StepRecord, StopReason, weighted_norm};
 use super::stepper::OdeMethod;
-pub use coefficients::{ORDER_5, ORDER_9, ORDER_13, Tables};
+pub use coefficients::{RADAU_5, RADAU_9, RADAU_13, RadauTables};
 use linear::{Factors, RateJacobian};
 use nalgebra::DVector;
 use stages::{Stages, scale};
@@ -95,7 +95,7 @@ impl Radau {
 
     /// Starts at (t, x) with steps of size h, whatever the error; their equations are solved to the tolerance.
     pub fn with_step(
-        tables: &'static Tables,
+        tables: &'static RadauTables,
         system: &mut impl OdeSystem,
         t: f64,
         x: &[f64],
@@ -108,7 +108,7 @@ impl Radau {
     }
 
     fn with_tables(
-        tables: &'static Tables,
+        tables: &'static RadauTables,
         system: &mut impl OdeSystem,
         t: f64,
         x: &[f64],
@@ -300,13 +300,13 @@ impl Radau {
 }
 
 /// The order for a tolerance: the looser, the fewer stages.
-fn tables_for(tolerance: f64) -> &'static Tables {
+fn tables_for(tolerance: f64) -> &'static RadauTables {
     if tolerance >= AT_ORDER_5 {
-        &ORDER_5
+        &RADAU_5
     } else if tolerance >= AT_ORDER_9 {
-        &ORDER_9
+        &RADAU_9
     } else {
-        &ORDER_13
+        &RADAU_13
     }
 }
 

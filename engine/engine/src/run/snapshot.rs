@@ -21,12 +21,13 @@ pub struct Snapshot {
 impl Snapshot {
     /// Bytes that it takes, with what an allocator adds to each of its lists.
     pub fn size(&self) -> usize {
-        let lists = [&self.state, &self.angles].map(|list| match list.capacity() {
-            0 => 0,
-            numbers => PER_LIST + size_of::<f64>() * numbers,
-        });
-        size_of::<Self>() + lists.iter().sum::<usize>()
+        size_of::<Self>() + list_size(&self.state) + list_size(&self.angles)
     }
+}
+
+/// Bytes that a list takes beside itself, with what an allocator adds; none where nothing was put into it.
+pub fn list_size<T>(list: &Vec<T>) -> usize {
+    if list.capacity() == 0 { 0 } else { PER_LIST + size_of::<T>() * list.capacity() }
 }
 
 impl Simulation {

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // a test that cannot go on says so
 
-use triad_engine::integrate::{DOP853, DOPRI5, Explicit, ORDER_5, OdeMethod, Radau, Tableau};
+use triad_engine::integrate::{DOP853, DOPRI5, Explicit, OdeMethod, RADAU_5, Radau, Tableau};
 use triad_engine::ode::OdeSystem;
 
 /// Start of the runs, s: not zero, so that t enters.
@@ -106,7 +106,7 @@ fn explicit(tableau: &'static Tableau, degree: u32) -> [f64; 2] {
 fn radau(degree: u32) -> [f64; 2] {
     let mut powers = SecondOrder { degree: degree.cast_signed() };
     let start = powers.state(START);
-    let method = Radau::with_step(&ORDER_5, &mut powers, START, &start, 1e-13, STEP);
+    let method = Radau::with_step(&RADAU_5, &mut powers, START, &start, 1e-13, STEP);
     let exact = SecondOrder { degree: powers.degree };
     errors(method, &mut powers, |t| exact.state(t))
 }

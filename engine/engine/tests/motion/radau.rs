@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // a test that cannot go on says so
 
-use triad_engine::integrate::{ORDER_5, ORDER_9, ORDER_13, OdeMethod, Radau, Tables};
+use triad_engine::integrate::{OdeMethod, RADAU_5, RADAU_9, RADAU_13, Radau, RadauTables};
 use triad_engine::ode::OdeSystem;
 
 /// ÿ = −ẏ⁰ sin y − 0.3 ẏ + cos t: a damped, driven pendulum.
@@ -38,7 +38,7 @@ impl OdeSystem for Stiff {
 }
 
 fn end(h: f64) -> f64 {
-    let mut integrator = Radau::with_step(&ORDER_5, &mut Pendulum, 0.0, &[1.0, 0.0], 1e-13, h);
+    let mut integrator = Radau::with_step(&RADAU_5, &mut Pendulum, 0.0, &[1.0, 0.0], 1e-13, h);
     while integrator.last().t < 2.0 - 0.5 * h {
         integrator.step(&mut Pendulum, 1e9).unwrap();
     }
@@ -54,7 +54,7 @@ fn has_order_five() {
 }
 
 /// How far a method is off after two seconds in so many steps.
-fn off(tables: &'static Tables, steps: u32) -> f64 {
+fn off(tables: &'static RadauTables, steps: u32) -> f64 {
     let h = 2.0 / f64::from(steps);
     let mut method = Radau::with_step(tables, &mut Known, 0.0, &[1.0, 1.0, -1.0, 0.0], 1e-12, h);
     while method.last().t < 2.0 - 0.5 * h {
@@ -67,7 +67,7 @@ fn off(tables: &'static Tables, steps: u32) -> f64 {
 #[test]
 fn each_number_of_stages_has_its_order() {
     for (tables, order, steps) in
-        [(&ORDER_5, 5.0, [16, 32]), (&ORDER_9, 9.0, [8, 16]), (&ORDER_13, 13.0, [4, 8])]
+        [(&RADAU_5, 5.0, [16, 32]), (&RADAU_9, 9.0, [8, 16]), (&RADAU_13, 13.0, [4, 8])]
     {
         let [coarse, fine] = steps.map(|steps| off(tables, steps));
         let observed = libm::log2(coarse / fine);
@@ -78,7 +78,7 @@ fn each_number_of_stages_has_its_order() {
 /// What Newton's method leaves adds up from step to step, and grows with what x does to its neighbours.
 #[test]
 fn stages_are_solved_to_rounding_where_the_tolerance_is_near_it() {
-    for (tables, steps) in [(&ORDER_9, 32), (&ORDER_13, 8), (&ORDER_13, 16)] {
+    for (tables, steps) in [(&RADAU_9, 32), (&RADAU_13, 8), (&RADAU_13, 16)] {
         let off = off(tables, steps);
         assert!(off < 1e-12, "{steps} steps: {off:.2e}");
     }

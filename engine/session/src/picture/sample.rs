@@ -1,9 +1,6 @@
 //! What is recorded of one instant.
 
-use triad_engine::run::Simulation;
-
-/// What an allocator adds to a list, bytes: its own notes, and up to the next size that it has.
-const PER_LIST: usize = 16;
+use triad_engine::run::{Simulation, list_size};
 
 /// A body at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,19 +48,14 @@ pub struct Sample {
 impl Sample {
     /// Bytes that it takes to hold this sample, with what an allocator adds to each of its lists.
     pub fn size(&self) -> usize {
-        let rows = self.reactions.iter().map(|reaction| held(&reaction.multipliers));
+        let rows = self.reactions.iter().map(|reaction| list_size(&reaction.multipliers));
         size_of::<Self>()
-            + held(&self.poses)
-            + held(&self.weights)
-            + held(&self.inertia)
-            + held(&self.reactions)
+            + list_size(&self.poses)
+            + list_size(&self.weights)
+            + list_size(&self.inertia)
+            + list_size(&self.reactions)
             + rows.sum::<usize>()
     }
-}
-
-/// Bytes of a list; none where it is empty.
-fn held<T>(list: &Vec<T>) -> usize {
-    if list.capacity() == 0 { 0 } else { PER_LIST + size_of::<T>() * list.capacity() }
 }
 
 /// The simulation at its current time, as it is recorded.

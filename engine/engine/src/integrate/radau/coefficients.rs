@@ -6,7 +6,7 @@ use nalgebra::{Complex, DMatrix};
 
 /// A method as tables.
 #[derive(Debug)]
-pub struct Tables {
+pub struct RadauTables {
     /// Nodes c of the stages, in parts of a step, with their weights b.
     pub nodes: &'static [(f64, f64)],
     /// The real eigenvalue of A⁻¹.
@@ -16,7 +16,7 @@ pub struct Tables {
 }
 
 /// Three stages, order 5.
-pub static ORDER_5: Tables = Tables {
+pub static RADAU_5: RadauTables = RadauTables {
     nodes: &[
         (0.155_051_025_721_682_2, 0.376_403_062_700_467_26),
         (0.644_948_974_278_317_8, 0.512_485_826_188_421_6),
@@ -26,7 +26,7 @@ pub static ORDER_5: Tables = Tables {
     pairs: &[Complex::new(2.681_082_873_627_752, 3.050_430_199_247_410_5)],
 };
 /// Five stages, order 9.
-pub static ORDER_9: Tables = Tables {
+pub static RADAU_9: RadauTables = RadauTables {
     nodes: &[
         (0.057_104_196_114_517_68, 0.143_713_560_791_225_95),
         (0.276_843_013_638_123_8, 0.281_356_015_149_462_06),
@@ -41,7 +41,7 @@ pub static ORDER_9: Tables = Tables {
     ],
 };
 /// Seven stages, order 13.
-pub static ORDER_13: Tables = Tables {
+pub static RADAU_13: RadauTables = RadauTables {
     nodes: &[
         (0.029_316_427_159_784_893, 0.074_494_235_556_010_32),
         (0.148_078_599_668_484_3, 0.159_102_115_733_650_74),
@@ -63,7 +63,7 @@ pub static ORDER_13: Tables = Tables {
 #[derive(Clone, Debug)]
 pub struct Method {
     /// The tables.
-    pub tables: &'static Tables,
+    pub tables: &'static RadauTables,
     /// T, which turns A⁻¹ into its real block form T⁻¹ A⁻¹ T: a column for the real eigenvalue, two for each pair.
     pub t: DMatrix<f64>,
     /// T⁻¹.
@@ -74,7 +74,7 @@ pub struct Method {
 
 impl Method {
     /// From its tables.
-    pub fn new(tables: &'static Tables) -> Self {
+    pub fn new(tables: &'static RadauTables) -> Self {
         let s = tables.nodes.len();
         let mut t = DMatrix::zeros(s, s);
         let vector = |eigenvalue: Complex<f64>| eigenvector(tables, eigenvalue);
@@ -125,7 +125,7 @@ impl Method {
 
 /// An eigenvector of A⁻¹, of length one. For a collocation method A v = λ v says that ∫₀ˣ p = λ p + κ M(x) with the
 /// polynomial p through v and M = ∏ (x − c): ∫₀ˣ p = Σ λʲ M⁽ʲ⁾ and p = Σ λʲ M⁽ʲ⁺¹⁾.
-fn eigenvector(tables: &Tables, eigenvalue: Complex<f64>) -> Vec<Complex<f64>> {
+fn eigenvector(tables: &RadauTables, eigenvalue: Complex<f64>) -> Vec<Complex<f64>> {
     let inverse = Complex::new(1.0, 0.0) / eigenvalue;
     // Coefficients of M, lowest first.
     let mut polynomial = vec![1.0];

@@ -1,6 +1,6 @@
 //! The linear systems of Newton's method: for second-order equations they have the size of η alone.
 
-use super::coefficients::Tables;
+use super::coefficients::RadauTables;
 use nalgebra::{Complex, DMatrix, DVector, Dyn, LU};
 
 type RealLu = LU<f64, Dyn, Dyn>;
@@ -42,7 +42,7 @@ impl Factors {
     /// For a step of size h. `None` if a matrix is singular.
     pub fn new(
         RateJacobian { stiffness, damping, .. }: &RateJacobian,
-        tables: &Tables,
+        tables: &RadauTables,
         h: f64,
     ) -> Option<Self> {
         let f = stiffness.nrows();
@@ -63,7 +63,7 @@ impl Factors {
 
     /// (μ I − J)⁻¹ r with the real μ, in place. From the halves of (μ I − J)(a, b) = r:
     /// b = μ a − r_a, (μ² − μ C − K) a = r_b + (μ − C) r_a.
-    pub fn solve_real(&mut self, jacobian: &RateJacobian, tables: &Tables, r: &mut DVector<f64>) {
+    pub fn solve_real(&mut self, jacobian: &RateJacobian, tables: &RadauTables, r: &mut DVector<f64>) {
         let (f, mu, a) = (r.len() / 2, tables.real / self.h, &mut self.half);
         for i in 0..f {
             a[i] = r[f + i] + r[i] * mu;
@@ -79,7 +79,7 @@ impl Factors {
     pub fn solve_pair(
         &mut self,
         jacobian: &RateJacobian,
-        tables: &Tables,
+        tables: &RadauTables,
         pair: usize,
         r: &mut DVector<Complex<f64>>,
     ) {

@@ -1,6 +1,6 @@
 //! The stages of a step and Newton's method for them, in the coordinates in which A⁻¹ falls into blocks.
 
-use super::coefficients::{Method, ORDER_9, Tables};
+use super::coefficients::{Method, RADAU_9, RadauTables};
 use super::linear::{Factors, RateJacobian};
 use super::updates::Updates;
 use crate::integrate::step::StepRecord;
@@ -67,7 +67,7 @@ pub fn scale(i: usize, n: usize, y: f64, estimated: f64) -> f64 {
 
 impl Stages {
     /// Allocates for n numbers.
-    pub fn new(tables: &'static Tables, n: usize) -> Self {
+    pub fn new(tables: &'static RadauTables, n: usize) -> Self {
         let method = Method::new(tables);
         let s = method.stages();
         let zeros = || vec![vec![0.0; n]; s];
@@ -200,7 +200,7 @@ impl Stages {
         let mut weights = vec![0.0; self.power_old.len()];
         let mut work = 0.0;
         // Exact for a polynomial through the stages.
-        for (node, weight) in ORDER_9.nodes {
+        for (node, weight) in RADAU_9.nodes {
             self.method.through(node * x, &mut weights);
             work += weight
                 * weights.iter().zip(&self.power_old).map(|(weight, power)| weight * power).sum::<f64>();
