@@ -20,7 +20,7 @@ use triad_lessons::lesson::Lesson;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::{find, unknown_question};
+use super::{find, not_asked};
 use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::{Json, PathParameters};
 use crate::api::scenes::table::along;
@@ -77,17 +77,8 @@ async fn asked_table(
 }
 
 fn table_of<'a>(lesson: &'a Lesson, id: &str) -> Result<AskedTable<'a>, Problem> {
-    lesson.asked_table(id).ok_or_else(|| {
-        if lesson.question(id).is_none() {
-            return unknown_question(lesson, id);
-        }
-        Problem::new(
-            StatusCode::NOT_FOUND,
-            "no-table-asked",
-            format!("the question {id} does not ask for a table"),
-            "tables belong to questions of kind trajectory",
-        )
-    })
+    let remedy = "tables belong to questions of kind trajectory";
+    lesson.asked_table(id).ok_or_else(|| not_asked(lesson, id, "no-table-asked", "a table", remedy))
 }
 
 fn not_measured(error: impl std::fmt::Display) -> Problem {

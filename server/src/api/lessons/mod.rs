@@ -310,15 +310,21 @@ pub(in crate::api) fn unknown_question(lesson: &Lesson, id: &str) -> Problem {
     )
 }
 
-/// The answer to a question that asks for no program.
+/// The answer to a question that is not there, or that asks for no program.
 fn not_to_implement(lesson: &Lesson, id: &str) -> Problem {
+    not_asked(
+        lesson,
+        id,
+        "not-to-implement",
+        "a program",
+        "states and starters belong to questions of kind implement",
+    )
+}
+
+/// The answer to a question that is not there, or does not ask for such a thing.
+fn not_asked(lesson: &Lesson, id: &str, code: &'static str, thing: &str, remedy: &'static str) -> Problem {
     if lesson.question(id).is_none() {
         return unknown_question(lesson, id);
     }
-    Problem::new(
-        StatusCode::NOT_FOUND,
-        "not-to-implement",
-        format!("the question {id} does not ask for a program"),
-        "states and starters belong to questions of kind implement",
-    )
+    Problem::new(StatusCode::NOT_FOUND, code, format!("the question {id} does not ask for {thing}"), remedy)
 }
