@@ -14,7 +14,7 @@ const look: Look = {
 
 /** A block of `count` frames of one body, 0.01 s apart. */
 function motion(count: number): Motion {
-  const block = new Uint8Array(16 + count * (8 + 4 * 12));
+  const block = new Uint8Array(16 + count * (8 + 4 * 21));
   const view = new DataView(block.buffer);
   for (const [k, value] of [1, 0, count].entries()) view.setUint32(4 * k, value, true);
   for (let k = 0; k < count; k += 1) view.setFloat64(16 + 8 * k, k / 100, true);
@@ -61,7 +61,7 @@ it("runs one after the other keep their motions, the oldest are thinned, and an 
   const letters = taped.parts.map((part) => part.track.length);
   expect(letters.reduce((sum, each) => sum + each, 0)).toBeLessThanOrEqual(3e6);
   expect(letters[0]).toBeLessThan(letters[29] ?? 0);
-  expect(fromBase64(taped.parts[29]?.track ?? "").length).toBe(16 + 2000 * 56);
+  expect(fromBase64(taped.parts[29]?.track ?? "").length).toBe(16 + 2000 * 92);
 });
 
 it("an hour of moments is bounded, and nothing that was shown is lost", () => {

@@ -6,9 +6,10 @@ import { Recorded } from "./recorded";
 function motion(): Motion {
   const frame = (x: number, force: number): number[] => [
     ...[x, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1],
+    ...[2, 0, 0, 0, 0, 0, 0, 0, 0],
     ...[x, 0, 0, force, 0, 0, 0, 0, 0],
   ];
-  const bytes = new Uint8Array(16 + 2 * (8 + 4 * 21));
+  const bytes = new Uint8Array(16 + 2 * (8 + 4 * 30));
   const view = new DataView(bytes.buffer);
   for (const [k, count] of [1, 1, 2, 0].entries()) view.setUint32(4 * k, count, true);
   for (const [k, time] of [0, 2].entries()) view.setFloat64(16 + 8 * k, time, true);

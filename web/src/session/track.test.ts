@@ -18,6 +18,9 @@ it("bodies and forces stand where they were between two frames", () => {
   const at = track.at(0.0025, known);
   expect(at?.time).toBe(0.0025);
   expect(at?.bodies[0]?.position[0]).toBeCloseTo(0.25);
+  expect(at?.bodies[0]?.velocity[0]).toBeCloseTo(0.5);
+  expect(at?.bodies[0]?.angular_velocity[2]).toBeCloseTo(0.75);
+  expect(at?.bodies[0]?.acceleration[0]).toBeCloseTo(1);
   expect(at?.forces[0]?.at[0]).toBeCloseTo(0.25);
   expect(at?.forces[0]?.force[0]).toBeCloseTo(12.5);
   // No reaction is known at the third: it stays as the state has it.
@@ -64,7 +67,7 @@ it("packs what it has into one block that reads back, thinned where it would be 
   const again = new Track();
   again.add(track.pack(Number.POSITIVE_INFINITY) ?? new Uint8Array());
   expect(again.at(2.5, state(2.5, 0))).toEqual(track.at(2.5, state(2.5, 0)));
-  const few = track.pack(3 * (8 + 4 * 21)) ?? new Uint8Array();
+  const few = track.pack(3 * (8 + 4 * 30)) ?? new Uint8Array();
   expect(new DataView(few.buffer).getUint32(8, true)).toBe(3);
   const thin = new Track();
   thin.add(few);

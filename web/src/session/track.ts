@@ -1,11 +1,11 @@
-// Where bodies were and what joints did at every recorded moment, as the server packs them (server/src/stream/track.rs).
+// Where bodies were, how they moved and what joints did at every recorded moment, as the server packs them (server/src/stream/track.rs).
 
 import type { SessionState, Vec3 } from "../api/types";
 import { unit } from "../mechanics/vec";
 
 /** Numbers before the times of a block. */
 const HEAD_BYTES = 16;
-const OF_BODY = 12;
+const OF_BODY = 21;
 const OF_JOINT = 9;
 /** Bytes that a page keeps of a run. */
 const MOST_BYTES = 48e6;
@@ -15,7 +15,7 @@ export interface Frame {
   time: number;
   bodies: number;
   joints: number;
-  /** Of each body position, u, v, w; then of each joint point, force, moment. */
+  /** Of each body position, u, v, w, velocity, angular velocity, acceleration; then of each joint point, force, moment. */
   numbers: Float32Array;
 }
 
@@ -121,7 +121,12 @@ export class Track {
     const bodies = state.bodies.map((body, k) => {
       const at = OF_BODY * k;
       const [u, v, w] = [3, 6, 9].map((off) => unit(vector(at + off))) as [Vec3, Vec3, Vec3];
-      return { ...body, position: vector(at), u, v, w };
+      const [velocity, angular_velocity, acceleration] = [12, 15, 18].map((off) => vector(at + off)) as [
+        Vec3,
+        Vec3,
+        Vec3,
+      ];
+      return { ...body, position: vector(at), u, v, w, velocity, angular_velocity, acceleration };
     });
     const known = a.joints === state.forces.length;
     const forces = state.forces.map((entry, k) => {
@@ -133,9 +138,12 @@ export class Track {
   }
 }
 
-/** A component of a body's position, m. */
-export const positionIn = (frame: Frame, body: number, axis: number): number =>
-  frame.numbers[OF_BODY * body + axis] ?? NaN;
+/** Where a body's numbers begin. */
+const PLACES = { position: 0, velocity: 12, angular_velocity: 15, acceleration: 18 };
+
+/** A component of a body's position, m, velocity, m/s, angular velocity, rad/s, or acceleration, m/s². */
+export const motionIn = (frame: Frame, body: number, what: keyof typeof PLACES, axis: number): number =>
+  frame.numbers[OF_BODY * body + PLACES[what] + axis] ?? NaN;
 
 /** A component of a joint's force, N, or of its moment, N m. */
 export const reactionIn = (frame: Frame, joint: number, what: "force" | "moment", axis: number): number =>

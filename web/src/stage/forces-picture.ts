@@ -7,7 +7,7 @@ import { add, cross, norm, scale, unit } from "../mechanics/vec";
 import type { Watched } from "../session/watched";
 import type { Eye } from "./eye";
 import { freeLabel, labelAt, type Place } from "./labels";
-import type { Palette } from "./palette";
+import { letters, type Palette } from "./palette";
 import type { Pen, Point } from "./pen";
 
 /** Width of an arrow by the height of the picture: it is seen from the last row. */
@@ -31,11 +31,6 @@ const CIRCLE_PIECES = 28;
 const INNER_CIRCLE = 0.8;
 /** More arrows than these are drawn without labels, except that of the selected joint. */
 const MOST_LABELS = 6;
-/** Height of the letters of a label, CSS pixels; on a projector twice that. */
-const LETTERS = 17;
-/** On a stage lower than this letters are smaller, but not smaller than these, CSS pixels. */
-const SMALL_STAGE = 330;
-const LEAST_LETTERS = 13;
 /** Where the name of the chosen joint stands if there is no room beside its arrow, CSS pixels from the left. */
 const GAP = 10;
 /** About the length of the legend's bar, CSS pixels. */
@@ -169,8 +164,7 @@ function drawLabel(
   const zero = norm(arrow.force) * sizes.force < NOTHING;
   const moment = arrow.moment ? `, ${num(norm(arrow.moment), 3)} N m` : "";
   const words = `${arrow.label} ${num(zero ? 0 : norm(arrow.force), 3)} N${moment}`;
-  const small = Math.max(LEAST_LETTERS / LETTERS, Math.min(1, eye.height / SMALL_STAGE));
-  const size = LETTERS * colours.size * small;
+  const size = letters(eye.height, colours);
   const named = { start: eye.project(arrow.at), tip, words: [words, arrow.label], size };
   const found = freeLabel(named, eye, taken);
   // The value of the joint that is looked at is seen whatever stands there.

@@ -5,7 +5,7 @@ import { add, cross, dot, norm, scale, sub, unit } from "../mechanics/vec";
 import type { Eye } from "./eye";
 import { drawFloor, hull } from "./floor";
 import { drawnJoint } from "./joints";
-import { mix, type Paint, type Palette, paint } from "./palette";
+import { letters, mix, type Paint, type Palette, paint } from "./palette";
 import type { Pen, Point } from "./pen";
 import { type Item, type Shown, THIN } from "./shown";
 import { direction, inWorld, middleOf, type Solid } from "./solids";
@@ -44,7 +44,7 @@ export function drawMechanism(pen: Pen, shown: Shown, behind?: () => void): void
     pen.disc(at, 3.5, { fill: colours.ink, stroke: colours.paper, width: 1.5 });
     pen.text([at[0] + 8, at[1] - 6], marker.name, {
       fill: colours.ink,
-      size: 13 * colours.size,
+      size: letters(shown.eye.height, colours),
       halo: colours.paper,
       bold: false,
     });
@@ -179,7 +179,7 @@ function drawnAxes(pen: Pen, shown: Shown, body: number): Item {
       const beyond: Point = [at[0] + 1.2 * (tip[0] - at[0]), at[1] + 1.2 * (tip[1] - at[1]) + 4];
       pen.text(beyond, name, {
         fill: stroke,
-        size: 12 * colours.size,
+        size: letters(eye.height, colours),
         anchor: "middle",
         halo: colours.paper,
       });
@@ -204,7 +204,7 @@ export function drawWorldAxes(pen: Pen, eye: Eye, colours: Palette): void {
     if (norm([dx, dy, 0]) < 3) {
       pen.text([at[0] - 8, at[1] + 14], name, {
         fill: stroke,
-        size: 12,
+        size: letters(eye.height, colours),
         anchor: "middle",
         halo: colours.paper,
       });
@@ -213,7 +213,7 @@ export function drawWorldAxes(pen: Pen, eye: Eye, colours: Palette): void {
     pen.path([at, [at[0] + dx, at[1] + dy]], { stroke, width: 2.2 });
     pen.text([at[0] + 1.3 * dx, at[1] + 1.3 * dy + 4], name, {
       fill: stroke,
-      size: 12 * Math.sqrt(colours.size),
+      size: letters(eye.height, colours),
       anchor: "middle",
       halo: colours.paper,
     });

@@ -5,6 +5,11 @@ const BODIES = ["#56b4e9", "#e69f00", "#009e73", "#f0e442", "#0072b2", "#cc79a7"
 /** How much of the paper is mixed into the colour of a body, and of the ink into its edge. */
 const PALE = 0.22;
 const DARK = 0.45;
+/** Height of the letters of a name, CSS pixels; on a projector twice that. */
+const LETTERS = 17;
+/** On a stage lower than this letters are smaller, but not smaller than these, CSS pixels. */
+const SMALL_STAGE = 330;
+const LEAST_LETTERS = 13;
 
 export interface Palette {
   paper: string;
@@ -36,6 +41,10 @@ export function palette(): Palette {
     size: document.documentElement.hasAttribute("data-projector") ? 1.9 : 1,
   };
 }
+
+/** Height of the letters of names in a picture so high, CSS pixels: of arrows, markers and axes alike, as they are read from one distance. */
+export const letters = (height: number, { size }: Palette): number =>
+  LETTERS * size * Math.max(LEAST_LETTERS / LETTERS, Math.min(1, height / SMALL_STAGE));
 
 export interface Paint {
   fill: string;

@@ -2,7 +2,7 @@
 
 /** A block of one body and one joint, as the server packs it. */
 export function block(frames: { time: number; x: number; force: number }[]): Uint8Array {
-  const size = 12 + 9;
+  const size = 21 + 9;
   const bytes = new ArrayBuffer(16 + frames.length * (8 + 4 * size));
   const view = new DataView(bytes);
   for (const [at, count] of [1, 1, frames.length, 0].entries()) view.setUint32(4 * at, count, true);
@@ -21,6 +21,7 @@ export function block(frames: { time: number; x: number; force: number }[]): Uin
       0,
       0,
       1,
+      ...[2 * x, 0, 0, 0, 0, 3 * x, 4 * x, 0, 0],
       Number.isNaN(force) ? force : x,
       0,
       0,

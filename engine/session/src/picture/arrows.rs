@@ -254,7 +254,13 @@ mod tests {
         };
         let sample = Sample {
             time: 0.0,
-            poses: vec![Pose { position: [1.0, 0.0, 0.0], axes: AXES }],
+            poses: vec![Pose {
+                position: [1.0, 0.0, 0.0],
+                axes: AXES,
+                velocity: [0.0; 3],
+                angular_velocity: [0.0; 3],
+                acceleration: [0.0; 3],
+            }],
             weights: vec![[0.0, -20.0, 0.0]],
             inertia: vec![[0.0, 5.0, 0.0]],
             reactions: vec![reaction],

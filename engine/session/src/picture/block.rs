@@ -1,16 +1,16 @@
 //! The motion in numbers, packed for the page's own drawing: a hundredth of what a recording of the viewer takes.
 //!
 //! A block is little-endian: the numbers of bodies, joints and frames and a zero, as `u32`; the frames' times in s as
-//! `f64`; then for each frame, as `f32`, of each body its centre of mass in m and its principal axes u, v, w, and of each
-//! joint where its reaction acts in m, its force in N and its moment in N m, as [`Sample`] has them. A reaction that could
+//! `f64`; then for each frame, as `f32`, of each body its centre of mass in m, its principal axes u, v, w, its velocity in
+//! m/s, its angular velocity in rad/s and its acceleration in m/s², and of each joint where its reaction acts in m, its force in N and its moment in N m, as [`Sample`] has them. A reaction that could
 //! not be found is NaN.
 
 use super::sample::Sample;
 
 /// Reactions of scenes with more joints are left out: their states leave them out too.
 const MAX_JOINTS: usize = 64;
-/// Numbers of a body: position, u, v, w.
-const OF_BODY: usize = 12;
+/// Numbers of a body: position, u, v, w, velocity, angular velocity, acceleration.
+const OF_BODY: usize = 21;
 /// Numbers of a joint: point, force, moment.
 const OF_JOINT: usize = 9;
 
@@ -33,6 +33,7 @@ pub fn block(samples: &[Sample], joints: usize) -> Vec<u8> {
         for pose in &sample.poses {
             put(pose.position);
             pose.axes.into_iter().for_each(&mut put);
+            [pose.velocity, pose.angular_velocity, pose.acceleration].into_iter().for_each(&mut put);
         }
         for joint in 0..joints {
             let unknown = [[f64::NAN; 3]; 3];
@@ -58,7 +59,13 @@ mod tests {
         let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         Sample {
             time,
-            poses: vec![Pose { position: [time, 2.0, 3.0], axes }],
+            poses: vec![Pose {
+                position: [time, 2.0, 3.0],
+                axes,
+                velocity: [8.0; 3],
+                angular_velocity: [9.0; 3],
+                acceleration: [10.0; 3],
+            }],
             weights: Vec::new(),
             inertia: Vec::new(),
             reactions,
@@ -78,8 +85,9 @@ mod tests {
         assert_eq!(&block[..16], &[1, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0]);
         assert_eq!(f64::from_le_bytes(std::array::from_fn(|k| block[24 + k])), 0.5);
         assert_eq!([number(0), number(1), number(3), number(7), number(11)], [0.0, 2.0, 1.0, 1.0, 1.0]);
-        assert_eq!([number(12), number(15), number(18), number(21)], [4.0, 5.0, 6.0, 0.5]);
-        assert!(number(21 + 12).is_nan(), "no reaction is known there");
+        assert_eq!([number(12), number(15), number(18)], [8.0, 9.0, 10.0]);
+        assert_eq!([number(21), number(24), number(27), number(30)], [4.0, 5.0, 6.0, 0.5]);
+        assert!(number(30 + 21).is_nan(), "no reaction is known there");
         assert_eq!(joints_told(MAX_JOINTS + 1), 0, "as their states do");
     }
 }

@@ -9,6 +9,12 @@ pub struct Pose {
     pub position: [f64; 3],
     /// Principal axes u, v, w in the world, unit vectors.
     pub axes: [[f64; 3]; 3],
+    /// Velocity of the centre of mass in the world, in metres a second.
+    pub velocity: [f64; 3],
+    /// Angular velocity in the world, in radians a second.
+    pub angular_velocity: [f64; 3],
+    /// Acceleration of the centre of mass in the world, in metres a second squared.
+    pub acceleration: [f64; 3],
 }
 
 /// A joint's reaction at one instant.
@@ -66,16 +72,23 @@ pub fn sample(simulation: &Simulation) -> Sample {
     let model = simulation.model();
     let weights = model.bodies.iter().map(|body| (model.gravity * body.mass).into()).collect();
     let inertia =
-        model.bodies.iter().zip(accelerations).map(|(body, a)| a.map(|part| part * body.mass)).collect();
+        model.bodies.iter().zip(&accelerations).map(|(body, a)| a.map(|part| part * body.mass)).collect();
     let reactions = simulation.multipliers_between_steps().into_iter().map(|joint| SampledReaction {
         at: joint.about,
         force: joint.force,
         moment: joint.moment,
         multipliers: joint.rows.iter().map(|row| row.value).collect(),
     });
+    let poses = frame.bodies.iter().zip(&accelerations).map(|(body, &acceleration)| Pose {
+        position: body.position,
+        axes: [body.u, body.v, body.w],
+        velocity: body.velocity,
+        angular_velocity: body.angular_velocity,
+        acceleration,
+    });
     Sample {
         time: simulation.time(),
-        poses: frame.bodies.iter().map(|b| Pose { position: b.position, axes: [b.u, b.v, b.w] }).collect(),
+        poses: poses.collect(),
         weights,
         inertia,
         reactions: reactions.collect(),

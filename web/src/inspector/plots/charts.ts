@@ -2,7 +2,7 @@
 
 import type { Accuracy, SessionState } from "../../api/types";
 import { t } from "../../core/texts";
-import { type Frame, positionIn, reactionIn } from "../../session/track";
+import { type Frame, motionIn, reactionIn } from "../../session/track";
 
 export interface Curve {
   label: string;
@@ -95,24 +95,24 @@ export function charts(state: SessionState): Chart[] {
 }
 
 function ofBody(name: string, at: number): Chart[] {
-  const place = components(
-    "",
-    "m",
-    (s, k) => s.bodies[at]?.position[k],
-    "position",
-    (frame, k) => positionIn(frame, at, k),
-  );
-  const velocity = components("v", "m/s", (s, k) => s.bodies[at]?.velocity[k], "velocity");
+  type Motion = "position" | "velocity" | "angular_velocity";
+  const motion = (symbol: string, unit: string, what: Motion | "acceleration"): Curve[] =>
+    components(
+      symbol,
+      unit,
+      (s, k) => s.bodies[at]?.[what][k],
+      what === "acceleration" ? undefined : what,
+      (frame, k) => motionIn(frame, at, what, k),
+    );
+  const place = motion("", "m", "position");
+  const velocity = motion("v", "m/s", "velocity");
   return [
-    {
-      label: t("Acceleration of {name}", { name }),
-      curves: components("a", "m/s²", (s, k) => s.bodies[at]?.acceleration[k]),
-    },
+    { label: t("Acceleration of {name}", { name }), curves: motion("a", "m/s²", "acceleration") },
     { label: t("Position of {name}", { name }), curves: place },
     { label: t("Velocity of {name}", { name }), curves: velocity },
     {
       label: t("Angular velocity of {name}", { name }),
-      curves: components("ω", "rad/s", (s, k) => s.bodies[at]?.angular_velocity[k], "angular_velocity"),
+      curves: motion("ω", "rad/s", "angular_velocity"),
     },
     { label: t("Phase plot of {name}", { name }), curves: velocity, across: place },
     hodograph(t("Path of {name}", { name }), place),

@@ -29,7 +29,13 @@ const chart = (label: string): (typeof offered)[number] => {
 
 describe("the samples of a plot", () => {
   it("are every frame of what the track holds, with the states between, as far as the run is told", () => {
-    for (const label of ["Position of bob", "Path of bob", "Force in pin on bob"]) {
+    for (const label of [
+      "Position of bob",
+      "Path of bob",
+      "Velocity of bob",
+      "Acceleration of bob",
+      "Force in pin on bob",
+    ]) {
       const { times, apart: gaps } = samplesOf(chart(label), { past: { all: states }, track });
       // 231 frames until 2.3 s, of which the states replace five, and one state between two frames.
       expect(times).toHaveLength(232);
@@ -45,23 +51,34 @@ describe("the samples of a plot", () => {
     for (const [k, time] of samples.times.entries()) expect(values[k]).toBeCloseTo(swing(time), 6);
     // A state has all its digits.
     expect(values[samples.times.indexOf(0.31)]).toBe(swing(0.31));
+    // Frames of this track have twice the place as velocity, thrice as angular velocity, four times as acceleration.
+    for (const [label, times, axis] of [
+      ["Velocity of bob", 2, 0],
+      ["Angular velocity of bob", 3, 2],
+      ["Acceleration of bob", 4, 0],
+    ] as const) {
+      const curve = chart(label).curves[axis];
+      const moving = samplesOf(chart(label), { past: { all: states }, track });
+      const at = moving.times.indexOf(0.5);
+      expect(curve && moving.of(curve)[at]).toBeCloseTo(times * swing(0.5), 5);
+    }
     const words = marksOf(position, samples).map((mark) => mark.words);
     expect(words).toContain("x smallest −1 m at 1.05 s");
   });
 
   it("are the states for all else, which lie far apart, and their extremes are told roughly", () => {
-    const velocity = chart("Velocity of bob");
-    const samples = samplesOf(velocity, { past: { all: states }, track });
+    const energy = chart("Energy drift");
+    const samples = samplesOf(energy, { past: { all: states }, track });
     expect(samples.times).toEqual(states.map(({ time }) => time));
     expect(samples.apart).toEqual([true, true, true, true, true]);
     const moving = states.map((one) => ({
       ...one,
-      bodies: one.bodies.map((body) => ({ ...body, velocity: [-3 * Math.sin(3 * one.time), 0, 0] as never })),
+      energy_drift: -3 * Math.sin(3 * one.time),
     }));
-    const words = marksOf(velocity, samplesOf(velocity, { past: { all: moving }, track })).map(
+    const words = marksOf(energy, samplesOf(energy, { past: { all: moving }, track })).map(
       (mark) => mark.words,
     );
-    expect(words).toContain("vx smallest about −2.4 m/s near 0.3 s");
+    expect(words).toContain("ΔE smallest about −2.4 J near 0.3 s");
   });
 
   it("are the states where there is no track, or one of another mechanism", () => {
