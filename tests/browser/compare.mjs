@@ -104,6 +104,8 @@ async function plots() {
   const ways = await phase.locator("path[fill=none]:not(.join)").count();
   assert.equal(ways, 3, "three quantities over their own");
   const before = await clock();
+  // Below what stays in sight.
+  await phase.evaluate((picture) => picture.scrollIntoView({ block: "start" }));
   const box = await phase.boundingBox();
   await page.mouse.click(box.x + box.width / 4, box.y + box.height / 2);
   await until("a click moves the clock", clock, (time) => time !== before);

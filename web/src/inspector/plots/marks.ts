@@ -5,9 +5,12 @@ import { num, seconds } from "../../core/format";
 import { t } from "../../core/texts";
 import type { Session } from "../../session/session";
 import type { Mark } from "../../session/slow";
-import type { Chart } from "./charts";
+import type { Chart, Curve } from "./charts";
 import { DECIMALS, DIGITS, type Extreme, extremes } from "./extremes";
 import type { Samples } from "./samples";
+
+/** A curve that stays below this part of the largest of its plot is zero but for rounding: a frame has seven digits. */
+const ROUNDING = 1e-6;
 
 const KINDS: Record<Extreme["kind"], () => string> = {
   largest: () => t("largest"),
@@ -74,7 +77,9 @@ export class ExtremeMarks {
 
 /** The extremes of the curves, in words: those that lie between samples far apart are told roughly. */
 export function marksOf(chart: Chart, samples: Samples): Mark[] {
+  const largest = Math.max(...chart.curves.map((curve) => size(samples, curve)));
   return chart.curves
+    .filter((curve) => chart.log || size(samples, curve) > ROUNDING * largest)
     .flatMap((curve) =>
       extremes(samples.times, samples.of(curve)).map(({ time, value, kind, sure }) => ({
         time,
@@ -95,3 +100,7 @@ export function marksOf(chart: Chart, samples: Samples): Mark[] {
     )
     .sort((a, b) => a.time - b.time);
 }
+
+/** The largest magnitude of a curve, 0 where nothing is known of it. */
+const size = (samples: Samples, curve: Curve): number =>
+  samples.of(curve).reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);

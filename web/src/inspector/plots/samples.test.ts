@@ -81,6 +81,21 @@ describe("the samples of a plot", () => {
     expect(words).toContain("ΔE smallest about −2.4 J near 0.3 s");
   });
 
+  it("have no extremes told of a curve that is zero but for rounding", () => {
+    const position = chart("Position of bob");
+    const wavering = states.map((one) => ({
+      ...one,
+      bodies: one.bodies.map((body) => ({
+        ...body,
+        position: [body.position[0], 1e-9 * Math.sin(9 * one.time), 0.01 * Math.sin(9 * one.time)] as never,
+      })),
+    }));
+    const run = { past: { all: wavering }, track: new Track() };
+    const words = marksOf(position, samplesOf(position, run)).map((mark) => mark.words);
+    expect(words.some((said) => said.startsWith("y "))).toBe(false);
+    expect(words.some((said) => said.startsWith("z "))).toBe(true);
+  });
+
   it("are the states where there is no track, or one of another mechanism", () => {
     const position = chart("Position of bob");
     expect(samplesOf(position, { past: { all: states }, track: new Track() }).times).toHaveLength(6);
