@@ -145,6 +145,16 @@ async function lookingBack() {
   await page.context().close();
 }
 
+/** A phone that comes to a lecture, and the bytes that it has loaded. */
+async function follower(locale) {
+  const phone = await visitor(`follower in ${locale}`, { width: 390, height: 844 }, { locale });
+  const network = await phone.context().newCDPSession(phone);
+  await network.send("Network.enable");
+  let loaded = 0;
+  network.on("Network.loadingFinished", ({ encodedDataLength }) => { loaded += encodedDataLength; });
+  return [phone, () => loaded];
+}
+
 async function lecture() {
   const presenter = await visitor("presenter");
   await presenter.goto(`${address}/scenes/spatial-double-pendulum`);
@@ -155,19 +165,21 @@ async function lecture() {
   await noSeriousFaults(presenter, "the invitation");
   await presenter.screenshot({ path: join(pictures, "workbench-invite.png") });
   await presenter.keyboard.press("Escape");
-  const phone = await visitor("follower", { width: 390, height: 844 });
-  const network = await phone.context().newCDPSession(phone);
-  await network.send("Network.enable");
-  let loaded = 0;
-  network.on("Network.loadingFinished", ({ encodedDataLength }) => { loaded += encodedDataLength; });
+  const [phone, loaded] = await follower("en");
   await phone.goto(`${address}/room`);
   await phone.getByLabel("Code of the room").fill(code.toLowerCase());
   await phone.getByRole("button", { name: "Join", exact: true }).click();
-  await phone.getByRole("heading", { level: 1, name: /pendulum/i }).waitFor();
+  const [german, loadedInGerman] = await follower("de");
+  await german.goto(`${address}/room/${code}`);
+  for (const page of [phone, german]) await page.getByRole("heading", { level: 1, name: /pendulum/i }).waitFor();
   await presenter.getByRole("button", { name: "Step by time" }).click();
-  await until("the presenter's clock travels", () => clock(phone), (time) => time >= 0.099);
-  assert(loaded > 20e3 && loaded < MOST_FOLLOWED, `a follower loads ${loaded} bytes`);
-  say(`a follower loads ${(loaded / 1e3).toFixed(0)} kB`);
+  for (const [page, bytes, language] of [[phone, loaded, "en"], [german, loadedInGerman, "de"]]) {
+    await until("the presenter's clock travels", () => clock(page), (time) => time >= 0.099);
+    assert.equal(await page.locator("html").getAttribute("lang"), language);
+    assert(bytes() > 20e3 && bytes() < MOST_FOLLOWED, `a follower (${language}) loads ${bytes()} bytes`);
+    say(`a follower (${language}) loads ${(bytes() / 1e3).toFixed(0)} kB`);
+  }
+  await german.context().close();
   await presenter.getByRole("tab", { name: "Reactions" }).click();
   await presenter.locator(".joint-select").first().click();
   await phone.locator(".joint.is-selected").waitFor();
