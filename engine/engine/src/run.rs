@@ -384,7 +384,7 @@ impl Simulation {
         let t = t.min(*end);
         current.replace(mechanism, t, |mechanism, y| integrator.interpolate(mechanism, t, y));
         if let Some(companion) = companion {
-            companion.compare(t, current.y());
+            companion.compare(t, current.y(), integrator.last().h);
         }
     }
 

@@ -38,6 +38,20 @@ fn every_method_says_what_its_result_is_worth() {
     }
 }
 
+/// Two runs by radau whose steps only grow from the first one agree in their errors if they take the same.
+#[test]
+fn radau_beside_radau_takes_other_steps() {
+    let mut judged: Vec<Judged> = Vec::new();
+    for scene in &scenes(25) {
+        let scene = in_the_way(scene, "radau").unwrap().tolerance(1e-3);
+        judged.extend(judge(&scene).unwrap_or_default());
+    }
+    let good = judged.iter().filter(|one| one.is_good()).count();
+    assert!(judged.len() > 400 && 100 * good >= 97 * judged.len(), "{good} of {}", judged.len());
+    let bad: Vec<&Judged> = judged.iter().filter(|one| one.is_bad()).collect();
+    assert!(100 * bad.len() <= judged.len(), "{} of {}: {bad:?}", bad.len(), judged.len());
+}
+
 /// Neighbouring motions part: after the moment that the run tells, it gives no figure any more.
 #[test]
 fn a_chaotic_run_says_from_when_on_it_knows_nothing() {

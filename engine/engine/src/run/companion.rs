@@ -7,11 +7,13 @@ use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::system::System;
 
 /// Tolerance of the second solution over that of the first: its own error then spoils the estimate by a few parts in a hundred
-/// (measured: docs/ACCURACY.md).
-const TIGHTER: f64 = 1e-2;
-/// The same beside ode45, whose absolute tolerance is a thousandth of the relative one, and beside radau with another method, whose
-/// errors would be as large: those of radau lie far below its tolerance.
-const MUCH_TIGHTER: f64 = 1e-4;
+/// (measured: docs/ACCURACY.md). With a hundredth, a few parts in a hundred of the runs at loose tolerances were more exact than it.
+const TIGHTER: f64 = 1e-4;
+/// The same of radau beside radau, whose steps are shorter as well.
+const TIGHTER_STEPS: f64 = 1e-2;
+/// Part of the first one's step that the second one's is not longer than, radau beside radau: while steps only grow from the first one,
+/// both would take the same, whatever their tolerances, and agree in their errors.
+const SHORTER: f64 = 0.5;
 /// The least tolerance of the second solution: rounding is near. That of a run with steps of one size, whose error has nothing to
 /// do with its tolerance.
 const TIGHTEST: f64 = 1e-12;
@@ -45,6 +47,8 @@ pub(super) struct Companion {
     mechanism: Mechanism,
     integrator: Integrator,
     kind: IntegratorKind,
+    /// Longest of its steps, in those of the first one.
+    longest: f64,
     /// When the two were compared last, s.
     compared: f64,
     /// The second solution at that time.
@@ -61,8 +65,7 @@ impl Companion {
         }
         // Other methods would resolve what the first one leaves out.
         let stiff = kind == IntegratorKind::Radau && !mechanism.system.loads.is_empty();
-        let much = kind == IntegratorKind::Ode45 || (kind == IntegratorKind::Radau && !stiff);
-        let tighter = if much { MUCH_TIGHTER } else { TIGHTER };
+        let tighter = if stiff { TIGHTER_STEPS } else { TIGHTER };
         let tolerance = match settings.step {
             // The errors of rattle are far below its tolerance where its steps are limited by something else.
             None if kind != IntegratorKind::Rattle => (tighter * settings.tolerance).max(TIGHTEST),
@@ -78,7 +81,8 @@ impl Companion {
         let (kind, _) = integrate::choose(&mut mechanism, y);
         mechanism.set_state(t, y);
         let integrator = Integrator::start(kind, &mut mechanism, t, y);
-        Some(Box::new(Self { mechanism, integrator, kind, compared: t, y: y.to_vec(), lost: None }))
+        let longest = if stiff { SHORTER } else { f64::INFINITY };
+        Some(Box::new(Self { mechanism, integrator, kind, longest, compared: t, y: y.to_vec(), lost: None }))
     }
 
     /// Its method and tolerance.
@@ -93,18 +97,20 @@ impl Companion {
 
     /// Goes on to the end of the first one's last step, before it takes another.
     pub fn keep_up(&mut self, first: &StepRecord) {
-        self.compare(first.t, &first.y);
+        self.compare(first.t, &first.y, first.h);
     }
 
-    /// Goes on to time t, not before that of the last comparison, at which the first solution is y.
-    pub fn compare(&mut self, t: f64, y: &[f64]) {
+    /// Goes on to time t, not before that of the last comparison, at which the first solution is y, in a step of size h.
+    pub fn compare(&mut self, t: f64, y: &[f64], h: f64) {
         if self.lost.is_some() || t <= self.compared {
             return;
         }
         let Self { mechanism, integrator, .. } = self;
         let end = mechanism.system.model.settings.duration;
+        let longest = if h > 0.0 { self.longest * h } else { f64::INFINITY };
         while integrator.last().t < t {
-            if integrator.step(mechanism, end).is_err() {
+            let to = end.min(integrator.last().t + longest);
+            if integrator.step(mechanism, to).is_err() {
                 self.lost = Some(Lost::Stopped(integrator.last().t));
                 return;
             }
