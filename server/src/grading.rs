@@ -55,22 +55,23 @@ pub fn grade(
 ) -> Result<(Submission, Verdict), Problem> {
     let submission = Submission::from_json(text)?;
     let lesson = variants.of(lesson, given.unwrap_or_else(|| submission.numbers_of()))?;
-    let verdict = triad_lessons::grade_if(&lesson, &submission, wanted)?;
+    let verdict = triad_lessons::grade_if(&lesson, &submission, &variants.known, wanted)?;
     Ok((submission, verdict))
 }
 
 /// Judges what is kept of a submission by itself, without what came before; a class's seed is not told.
 ///
-/// Errors, with a sentence, if the lesson or this program cannot judge it.
+/// Errors, with a sentence, if the lesson or this program cannot judge it, or nobody wants to know any more.
 pub fn judge_again(
     lesson: &Lesson,
     variants: &Variants,
     answers: &str,
     seed: &str,
+    wanted: &Wanted,
 ) -> Result<Verdict, String> {
     let submission = answered(answers)?;
     let own = variants.of(lesson, seed).map_err(|problem| problem.to_string())?;
-    triad_lessons::grade(&own, &submission).map_err(|error| error.to_string())
+    triad_lessons::grade_if(&own, &submission, &variants.known, wanted).map_err(|error| error.to_string())
 }
 
 /// The answers that are kept of a submission.

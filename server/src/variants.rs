@@ -1,11 +1,11 @@
-//! Lessons with the numbers of one student, made once and kept for a while.
+//! Lessons with the numbers of one student, made once and kept for a while, and what grading computed of them.
 
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use axum::http::StatusCode;
 use triad_lessons::seed::{SeedError, checked};
-use triad_lessons::{Lesson, VariantError};
+use triad_lessons::{Known, Lesson, VariantError};
 
 use crate::problem::Problem;
 
@@ -16,12 +16,17 @@ const KEPT: usize = 256;
 #[derive(Debug, Default)]
 pub struct Variants {
     kept: Mutex<Kept>,
+    /// What grading computed before.
+    pub known: Known,
 }
+
+/// Slug and hash of a lesson, and the seed.
+type Key = (String, String, String);
 
 #[derive(Debug, Default)]
 struct Kept {
-    lessons: HashMap<(String, String), Arc<Lesson>>,
-    order: VecDeque<(String, String)>,
+    lessons: HashMap<Key, Arc<Lesson>>,
+    order: VecDeque<Key>,
 }
 
 impl Variants {
@@ -34,9 +39,9 @@ impl Variants {
         if seed.is_empty() {
             return Ok(Arc::new(lesson.for_nobody()));
         }
-        let key = (lesson.slug.clone(), seed.to_owned());
         // A lesson that was edited since has another hash.
-        let kept = self.lock().lessons.get(&key).filter(|l| l.hash == lesson.hash).cloned();
+        let key = (lesson.slug.clone(), lesson.hash.clone(), seed.to_owned());
+        let kept = self.lock().lessons.get(&key).cloned();
         if let Some(lesson) = kept {
             return Ok(lesson);
         }

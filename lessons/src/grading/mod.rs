@@ -6,6 +6,7 @@ mod diagram;
 mod explanation;
 mod follow;
 pub(crate) mod formula;
+mod known;
 mod model;
 mod picture;
 mod program;
@@ -20,6 +21,8 @@ use serde::Serialize;
 use thiserror::Error;
 use triad_engine::analysis::Wanted;
 
+use self::known::Asked;
+pub use self::known::{Computed, Known};
 pub use self::trajectory::AskedTable;
 use crate::answers::{Answer, Submission};
 use crate::exercise::{Question, QuestionBody};
@@ -75,14 +78,19 @@ impl GradeError {
 ///
 /// Errors if it answers a question that does not exist.
 pub fn grade(lesson: &Lesson, submission: &Submission) -> Result<Verdict, GradeError> {
-    grade_if(lesson, submission, &Wanted::default())
+    grade_if(lesson, submission, &Known::default(), &Wanted::default())
 }
 
-/// As [`grade`], as long as the verdict is wanted.
+/// As [`grade`], by what is known, as long as the verdict is wanted.
 ///
 /// Errors as [`grade`] does, and where it is no longer wanted.
-pub fn grade_if(lesson: &Lesson, submission: &Submission, wanted: &Wanted) -> Result<Verdict, GradeError> {
-    let mut judgements = judge_if(lesson, submission, wanted)?;
+pub fn grade_if(
+    lesson: &Lesson,
+    submission: &Submission,
+    known: &Known,
+    wanted: &Wanted,
+) -> Result<Verdict, GradeError> {
+    let mut judgements = judge_if(lesson, submission, known, wanted)?;
     if judgements.iter().any(|judgement| judgement.mark == Mark::Invalid) {
         // Nobody tries answers one by one beside a field that cannot be read.
         for judgement in
@@ -129,18 +137,23 @@ pub fn asked(lesson: &Lesson, submission: &Submission) -> Result<(), GradeError>
 
 /// Judges every question of the lesson, in order.
 pub(crate) fn judge(lesson: &Lesson, submission: &Submission) -> Result<Vec<Judgement>, GradeError> {
-    judge_if(lesson, submission, &Wanted::default())
+    judge_if(lesson, submission, &Known::default(), &Wanted::default())
 }
 
-/// As [`judge`], as long as that is wanted.
-fn judge_if(lesson: &Lesson, submission: &Submission, wanted: &Wanted) -> Result<Vec<Judgement>, GradeError> {
+/// As [`judge`], by what is known, as long as that is wanted.
+fn judge_if(
+    lesson: &Lesson,
+    submission: &Submission,
+    known: &Known,
+    wanted: &Wanted,
+) -> Result<Vec<Judgement>, GradeError> {
     let all = &lesson.exercise.questions;
     asked(lesson, submission)?;
     let mut judgements: Vec<Judgement> = Vec::with_capacity(all.len());
     for question in all {
         let answer = submission.answers.get(&question.id).filter(|answer| !answer.is_blank());
         let mut judgement =
-            answer.map_or_else(Judgement::blank, |a| judge_answer(lesson, question, a, wanted));
+            answer.map_or_else(Judgement::blank, |a| judge_answer(lesson, question, a, known, wanted));
         // What ended early is no judgement.
         if !wanted.is_still() {
             return Err(GradeError::NoLongerWanted);
@@ -174,23 +187,55 @@ pub fn understand(question: &Question, answer: &Answer) -> Option<Understood> {
 }
 
 /// Judges an answer; whatever comes first, where it is not wanted any more.
-fn judge_answer(lesson: &Lesson, question: &Question, answer: &Answer, wanted: &Wanted) -> Judgement {
+fn judge_answer(
+    lesson: &Lesson,
+    question: &Question,
+    answer: &Answer,
+    known: &Known,
+    wanted: &Wanted,
+) -> Judgement {
     let note = &question.right;
     let judged = match &question.body {
         QuestionBody::Quantity(body) => quantity::judge(body, note, answer).map_err(Into::into),
         QuestionBody::Choice { options, right } => closed::choice(options, right, answer).map_err(Into::into),
         QuestionBody::Formula(body) => formula::judge(body, &question.id, note, answer).map_err(Into::into),
         QuestionBody::Diagram(task) => diagram::judge(task, note, answer).map_err(Into::into),
-        QuestionBody::Implement(task) => {
-            let seed = instances::seed(lesson, &question.id);
-            program::judge(task, &seed, note, answer).map_err(Into::into)
-        }
-        QuestionBody::Trajectory(task) => trajectory::judge(task, note, answer, wanted).map_err(Into::into),
-        QuestionBody::Model(task) => model::judge(task, note, answer).map_err(Into::into),
-        QuestionBody::Tuning(task) => tuning::judge(task, note, answer, wanted).map_err(Into::into),
         QuestionBody::Explanation(task) => explanation::judge(task, answer).map_err(Into::into),
+        QuestionBody::Implement(_) => {
+            let seed = instances::seed(lesson, &question.id);
+            return judge_work(question, seed, answer, known, wanted);
+        }
+        QuestionBody::Trajectory(_) | QuestionBody::Model(_) | QuestionBody::Tuning(_) => {
+            return judge_work(question, String::new(), answer, known, wanted);
+        }
     };
     judged.unwrap_or_else(Judgement::invalid)
+}
+
+/// Judges what takes a computation, unless it was judged before; `seed` is that of a program's instances.
+fn judge_work(
+    question: &Question,
+    seed: String,
+    answer: &Answer,
+    known: &Known,
+    wanted: &Wanted,
+) -> Judgement {
+    let (answer, note, body) = (answer.clone(), question.right.clone(), question.body.clone());
+    let judge = |Asked { answer, note, seed, body }: &Asked| {
+        let judged = match body {
+            QuestionBody::Implement(task) => program::judge(task, seed, note, answer).map_err(Into::into),
+            QuestionBody::Trajectory(task) => {
+                trajectory::judge(task, note, answer, known, wanted).map_err(Into::into)
+            }
+            QuestionBody::Model(task) => model::judge(task, note, answer).map_err(Into::into),
+            QuestionBody::Tuning(task) => {
+                tuning::judge(task, note, answer, known, wanted).map_err(Into::into)
+            }
+            _ => Ok(Judgement::blank()),
+        };
+        judged.unwrap_or_else(Judgement::invalid)
+    };
+    known.judgements.of(Asked { answer, note, seed, body }, wanted, judge)
 }
 
 /// A judgement as it is sent and kept.

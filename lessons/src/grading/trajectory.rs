@@ -1,9 +1,12 @@
 //! A table of a motion, from any program, against the reference; and how a run of this one is written as such a table.
 
+use std::sync::Arc;
+
 use triad_engine::Scene;
 use triad_engine::analysis::Wanted;
 use triad_engine::run::Simulation;
 
+use super::known::Known;
 use crate::answers::{Answer, table};
 use crate::exercise::{QuestionBody, Trajectory};
 use crate::lesson::Lesson;
@@ -69,11 +72,13 @@ pub(super) fn judge(
     task: &Trajectory,
     note: &str,
     answer: &Answer,
+    known: &Known,
     wanted: &Wanted,
 ) -> Result<Judgement, InvalidTrajectory> {
     let text = answer.file.as_ref().ok_or(InvalidTrajectory::NoFile)?;
     let (times, given) = read(task, text)?;
-    let motion = ReferenceMotion::new(task).map_err(InvalidTrajectory::Reference)?;
+    let run = |task: &Trajectory| ReferenceMotion::new(task).map(Arc::new);
+    let motion = known.motions.of(task.clone(), wanted, run).map_err(InvalidTrajectory::Reference)?;
     let deviation = motion.deviation(&times, &given);
     let error = deviation.total;
     let share = task.bands.iter().find(|b| error <= b.error).map_or(0.0, |b| b.share);

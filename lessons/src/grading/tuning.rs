@@ -4,10 +4,12 @@ use triad_engine::analysis::Wanted;
 use triad_engine::run::Simulation;
 use triad_engine::scene::{ConstraintMethod, IntegratorKind, Scene};
 
+use super::known::{Known, Made, Run};
 use super::picture::{Picture, Point};
 use crate::answers::tolerance::distance;
 use crate::answers::{Answer, RunSettings, TypedValue, number};
 use crate::exercise::Tuning;
+use crate::files::MeasuredFile;
 use crate::scenario::measure::{MeasureError, measure, with_error};
 use crate::verdict::feedback::{Feedback, Judgement, TuningFeedback};
 use crate::verdict::invalid::InvalidSettings;
@@ -35,12 +37,15 @@ pub(super) fn judge(
     task: &Tuning,
     note: &str,
     answer: &Answer,
+    known: &Known,
     wanted: &Wanted,
 ) -> Result<Judgement, InvalidSettings> {
     let settings = answer.settings.as_ref().ok_or(InvalidSettings::NoSettings)?;
     let scene = chosen(task, settings)?;
-    let (reference, _) = with_error(&task.scene, &task.watch).map_err(InvalidSettings::Reference)?;
-    let cost = match make(task, &scene, &reference, wanted) {
+    let run = |(scene, watch): &(Scene, MeasuredFile)| with_error(scene, watch).map(|(value, _)| value);
+    let reference = known.references.of((task.scene.clone(), task.watch.clone()), wanted, run);
+    let reference = reference.map_err(InvalidSettings::Reference)?;
+    let cost = match cost(task, scene, &reference, known, wanted) {
         Ok(cost) => cost,
         Err(problem) => {
             return Ok(Judgement::wrong(0.0, Some("stopped"), Feedback::TuningStopped { problem }));
@@ -57,7 +62,7 @@ pub(super) fn judge(
     };
     let (precise, cheap) = (feedback.is_precise(), feedback.is_cheap() && cost.error.is_some());
     let drifted = feedback.has_drifted();
-    let curves = if precise && cheap { curves(task, &reference, wanted) } else { Vec::new() };
+    let curves = if precise && cheap { curves(task, &reference, known, wanted) } else { Vec::new() };
     let figure = Some(picture(task, settings, cost, curves));
     let feedback = Feedback::Tuning(feedback);
     let judgement = match (precise, cheap) {
@@ -115,30 +120,43 @@ fn positive(entry: &TypedValue, what: &'static str) -> Result<f64, InvalidSettin
     if value.is_finite() && value >= 0.0 { Ok(value) } else { Err(InvalidSettings::Negative { what }) }
 }
 
+/// What the run costs and how far it is off.
+fn cost(
+    task: &Tuning,
+    scene: Scene,
+    reference: &[f64],
+    known: &Known,
+    wanted: &Wanted,
+) -> Result<RunCost, MeasureError> {
+    let run = Run { scene, watch: task.watch.clone(), most: BUDGETS * task.budget };
+    let made = known.runs.of(run, wanted, |run| make(run, wanted))?;
+    let error = made.value.map(|value| distance(&value, reference));
+    Ok(RunCost { evaluations: made.evaluations, error, violation: made.violation })
+}
+
 /// Makes the run, in pieces, as long as it is wanted, and measures.
-fn make(task: &Tuning, scene: &Scene, reference: &[f64], wanted: &Wanted) -> Result<RunCost, MeasureError> {
-    let mut simulation = Simulation::new(scene)?;
-    while !simulation.advance_towards(task.watch.time, STEPS_PER_CHECK)? {
+fn make(run: &Run, wanted: &Wanted) -> Result<Made, MeasureError> {
+    let mut simulation = Simulation::new(&run.scene)?;
+    while !simulation.advance_towards(run.watch.time, STEPS_PER_CHECK)? {
         let evaluations = simulation.summary().evaluations;
-        if evaluations > BUDGETS * task.budget || !wanted.is_still() {
-            return Ok(RunCost { evaluations, error: None, violation: f64::INFINITY });
+        if evaluations > run.most || !wanted.is_still() {
+            return Ok(Made { evaluations, value: None, violation: f64::INFINITY });
         }
     }
     let summary = simulation.summary();
-    let value = measure(scene, &simulation, &task.watch)?;
-    Ok(RunCost {
+    Ok(Made {
         evaluations: summary.evaluations,
-        error: Some(distance(&value, reference)),
+        value: Some(measure(&run.scene, &simulation, &run.watch)?),
         violation: summary.position_violation,
     })
 }
 
 /// The curves of all choices, by the names of the integrators.
-fn curves(task: &Tuning, reference: &[f64], wanted: &Wanted) -> Vec<(String, Vec<Point>)> {
+fn curves(task: &Tuning, reference: &[f64], known: &Known, wanted: &Wanted) -> Vec<(String, Vec<Point>)> {
     let point = |integrator: IntegratorKind, tolerance: f64| {
         let tolerance = TypedValue::Number(tolerance);
         let settings = RunSettings { integrator, tolerance, baumgarte: None };
-        let made = make(task, &chosen(task, &settings).ok()?, reference, wanted).ok()?;
+        let made = cost(task, chosen(task, &settings).ok()?, reference, known, wanted).ok()?;
         Some(Point { work: made.evaluations, error: made.error? })
     };
     let curve = |kind: &IntegratorKind| {

@@ -15,6 +15,7 @@ const SHIFT_POINTS: usize = 400;
 const MAX_SHIFT: f64 = 0.1;
 
 /// The reference on an even grid, column by column.
+#[derive(Debug)]
 pub(crate) struct ReferenceMotion {
     /// The grid covers 0 to this time, s.
     pub end: f64,

@@ -236,7 +236,8 @@ fn courses_and_lessons_that_cannot_be_read() {
     let wanted = Wanted::default();
     wanted.no_longer();
     let lesson = course.lesson("simple-pendulum").unwrap();
-    let error = crate::grade_if(lesson, &Submission::default(), &wanted).unwrap_err();
+    let error =
+        crate::grade_if(lesson, &Submission::default(), &crate::Known::default(), &wanted).unwrap_err();
     grades.meet("a verdict that nobody waits for", &error, error.code(), None, "");
     all_reviewed("refusals-lessons", [courses.text(), lessons.text(), variants_met.text(), grades.text()]);
 }

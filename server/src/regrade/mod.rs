@@ -9,6 +9,7 @@ use std::collections::HashMap;
 
 use serde::Serialize;
 use serde_json::{Value, json};
+use triad_engine::analysis::Wanted;
 use triad_lessons::{Lesson, Verdict};
 
 use crate::grading;
@@ -55,7 +56,7 @@ pub struct Change {
 pub async fn check(store: &Store, course: &str) -> Result<Rebuilt, Problem> {
     let mut rebuilt = Rebuilt::default();
     let mut lessons: HashMap<String, Option<Lesson>> = HashMap::new();
-    let variants = Variants::default();
+    let (variants, wanted) = (Variants::default(), Wanted::default());
     // Earlier submissions decide what a later one can still earn, by the verdicts that were in force when it was judged.
     let mut known: HashMap<(String, String), Vec<StoredSubmission>> = HashMap::new();
     for record in store.recorded(course, None).await? {
@@ -70,7 +71,8 @@ pub async fn check(store: &Store, course: &str) -> Result<Rebuilt, Problem> {
             lessons.insert(record.lesson_sha256.clone(), Lesson::from_bundle(&bundle).ok());
         }
         let lesson = lessons.get(&record.lesson_sha256).and_then(Option::as_ref);
-        let judge = |lesson: &Lesson| grading::judge_again(lesson, &variants, &record.answers, &record.seed);
+        let judge =
+            |lesson: &Lesson| grading::judge_again(lesson, &variants, &record.answers, &record.seed, &wanted);
         match again(&record, lesson, judge, earlier) {
             // As texts: byte for byte.
             Ok(now) if record.body == format!("{now}") => rebuilt.same += 1,

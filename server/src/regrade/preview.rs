@@ -9,6 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::Instant;
 
 use serde_json::Value;
+use triad_engine::analysis::Wanted;
 use triad_lessons::{Lesson, Verdict};
 
 use super::judged::{Judged, Progress, Version, by_graders};
@@ -22,6 +23,7 @@ use crate::problem::Problem;
 use crate::store::hash::sha256;
 use crate::store::{Assignment, NewRegrade, NewVerdict, Recorded, Store, StoreError, StoredSubmission};
 use crate::variants::Variants;
+use crate::work::{Asker, still};
 
 /// Previews that are kept until they are applied: one that is pushed out is made anew.
 const KEPT: usize = 8;
@@ -159,7 +161,13 @@ pub async fn preview(
         Judges::Here(progress)
     };
     let lessons = Lessons { old, new, version: version.clone() };
-    let graded = aside::run(move || Ok(all_again(&by_person(records), &lessons, &judges))).await?;
+    // Whoever leaves drops the asker.
+    let (_asker, wanted) = Asker::new();
+    let again = move || {
+        let graded = all_again(&by_person(records), &lessons, &judges, &wanted);
+        still(&wanted).map(|()| graded)
+    };
+    let graded = aside::run(again).await?;
     let now = Moment::now();
     let mut people: Vec<(PersonChange, Vec<Graded>)> = graded
         .into_iter()
@@ -207,9 +215,10 @@ impl Judges {
         lesson: &Lesson,
         sha256: &str,
         variants: &Variants,
+        wanted: &Wanted,
     ) -> Result<Verdict, String> {
         match self {
-            Self::Here(_) => grading::judge_again(lesson, variants, &record.answers, &record.seed),
+            Self::Here(_) => grading::judge_again(lesson, variants, &record.answers, &record.seed, wanted),
             Self::Graders(judged) => {
                 let found = judged.get(&(record.id.clone(), sha256.to_owned()));
                 found.cloned().unwrap_or_else(|| Err("no grader has judged it".to_owned()))
@@ -218,16 +227,24 @@ impl Judges {
     }
 }
 
-/// Grades again, each person by one thread: what came before decides what a later submission earns.
-fn all_again(people: &[Vec<Recorded>], lessons: &Lessons, judges: &Judges) -> Vec<Vec<Graded>> {
+/// Grades again, each person by one thread: what came before decides what a later submission earns. It ends early where nobody
+/// wants it any more.
+fn all_again(
+    people: &[Vec<Recorded>],
+    lessons: &Lessons,
+    judges: &Judges,
+    wanted: &Wanted,
+) -> Vec<Vec<Graded>> {
     let next = AtomicUsize::new(0);
     let threads = std::thread::available_parallelism().map_or(1, usize::from).min(people.len().max(1));
+    // Of both versions, by all threads: what the change of the lesson does not touch is computed once.
+    let variants = Variants::default();
     let work = || {
-        // The numbers of both versions are kept apart: they have the same seeds.
-        let variants = [Variants::default(), Variants::default()];
         let mut done = Vec::new();
-        while let Some(records) = people.get(next.fetch_add(1, Ordering::Relaxed)) {
-            done.push(person_again(records, lessons, judges, &variants));
+        while let Some(records) =
+            people.get(next.fetch_add(1, Ordering::Relaxed)).filter(|_| wanted.is_still())
+        {
+            done.push(person_again(records, lessons, judges, &variants, wanted));
             if let Judges::Here(progress) = judges {
                 progress.done.fetch_add(records.len(), Ordering::Relaxed);
             }
@@ -249,7 +266,8 @@ fn person_again(
     records: &[Recorded],
     lessons: &Lessons,
     judges: &Judges,
-    [before, after]: &[Variants; 2],
+    variants: &Variants,
+    wanted: &Wanted,
 ) -> Vec<Graded> {
     let mut known: Vec<StoredSubmission> = Vec::new();
     let mut graded: Vec<Graded> = Vec::new();
@@ -257,11 +275,11 @@ fn person_again(
         let earlier = replace(&mut known, record);
         let sha256 = record.lesson_sha256.as_str();
         let lesson = lessons.old.get(sha256).and_then(Option::as_ref);
-        let judge = |lesson: &Lesson| judges.judge(record, lesson, sha256, before);
+        let judge = |lesson: &Lesson| judges.judge(record, lesson, sha256, variants, wanted);
         let control = (!sha256.is_empty()).then(|| again(record, lesson, judge, earlier));
         let place = graded.iter().position(|one| one.record.id == record.id).unwrap_or(graded.len());
         let told: Vec<StoredSubmission> = graded[..place].iter().map(newly_stored).collect();
-        let judge = |lesson: &Lesson| judges.judge(record, lesson, &lessons.version, after);
+        let judge = |lesson: &Lesson| judges.judge(record, lesson, &lessons.version, variants, wanted);
         let now = again(record, Some(&lessons.new), judge, told).ok();
         let change = submission_change(record, control, now.as_ref());
         let one = Graded { record: record.clone(), change, body: now };
