@@ -8,6 +8,7 @@ use tokio::sync::Semaphore;
 use triad_lessons::Course;
 
 use crate::access::Access;
+use crate::analysis::Near;
 use crate::aside::Streams;
 use crate::glance::Presence;
 use crate::lecture::Lectures;
@@ -33,6 +34,8 @@ pub struct App {
     pub course: Arc<Course>,
     /// The lessons with students' own numbers.
     pub variants: Arc<Variants>,
+    /// Which wrong answers are almost right.
+    pub near: Arc<Near>,
     /// The gradebook.
     pub store: Arc<Store>,
     /// Which of several servers this is.
@@ -79,6 +82,7 @@ impl App {
         Self {
             course: Arc::new(course),
             variants: Arc::default(),
+            near: Arc::default(),
             store: Arc::new(store),
             node: Arc::default(),
             sessions: Arc::default(),

@@ -7,17 +7,16 @@ use serde::Serialize;
 use serde_json::Value;
 use triad_lessons::answers::Answer;
 use triad_lessons::exercise::{Question, QuestionBody};
-use triad_lessons::{Lesson, Mark, near};
+use triad_lessons::{Lesson, Mark};
 
 use super::figures::QuestionFigures;
+use super::near::Near;
 use super::statistics::halves;
 use super::work::{Try, Work};
 use crate::policy::Moment;
 use crate::problem::Problem;
 use crate::variants::Variants;
 
-/// Wrong answers within so many tolerances are almost right.
-const ALMOST: f64 = 3.0;
 /// Difference of two halves of a class from which drawn numbers are not equally hard, in standard errors.
 const UNEQUAL: f64 = 3.0;
 /// Longest answer that is shown whole, in characters.
@@ -124,7 +123,7 @@ impl QuestionAnalysis {
     /// Errors if a student's numbers cannot be drawn.
     pub fn of(
         lesson: &Lesson,
-        variants: &Variants,
+        numbers: (&Variants, &Near),
         id: &str,
         works: &[Work],
     ) -> Result<Option<Self>, Problem> {
@@ -161,7 +160,7 @@ impl QuestionAnalysis {
                 .map(|option| choice(question, option.id, option.html, works))
                 .collect(),
             drawn: drawn(works),
-            almost: almost(lesson, variants, question, works)?,
+            almost: almost(lesson, numbers, question, works)?,
             sent_back: works
                 .iter()
                 .filter(|work| work.tries.iter().any(|one| one.mark == Mark::Invalid))
@@ -227,7 +226,7 @@ fn drawn(works: &[Work]) -> Vec<DrawnNumber> {
 /// How many students gave a wrong answer that is almost right.
 fn almost(
     lesson: &Lesson,
-    variants: &Variants,
+    (variants, near): (&Variants, &Near),
     question: &Question,
     works: &[Work],
 ) -> Result<Option<usize>, Problem> {
@@ -237,18 +236,7 @@ fn almost(
     }
     let mut count = 0;
     for work in works {
-        let wrong: Vec<&Try> = work.judged().filter(|one| one.mark == Mark::Wrong).collect();
-        if wrong.is_empty() {
-            continue;
-        }
-        let own = variants.of(lesson, &work.seed)?;
-        let is_near = |one: &&Try| {
-            let answer = serde_json::from_value::<Answer>(one.answer.clone()).ok();
-            answer
-                .and_then(|answer| near(&own, &question.id, &answer))
-                .is_some_and(|tolerances| tolerances <= ALMOST)
-        };
-        count += usize::from(wrong.iter().any(is_near));
+        count += usize::from(near.almost(lesson, variants, &question.id, work)?);
     }
     Ok(Some(count))
 }

@@ -57,6 +57,10 @@ async fn mistakes_are_counted_by_student_with_the_answers_behind_each() {
         (&json!(1), &json!(0)),
         "3.02 is within three tolerances"
     );
+    // Three were wrong; whoever looks again draws nobody's numbers.
+    assert_eq!(class.app.near.drawn(), 3);
+    let again = see(&format!("{QUESTIONS}/tension-bottom")).await.json();
+    assert_eq!((again["almost"].clone(), class.app.near.drawn()), (json!(1), 3));
     let names: Vec<&Value> =
         found["drawn"].as_array().expect("numbers").iter().map(|one| &one["name"]).collect();
     assert!(names.contains(&&json!("m")), "{names:?}");

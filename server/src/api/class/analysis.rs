@@ -78,7 +78,7 @@ async fn question(
     let mut class = Class::open(&app.store, CLASS, &lesson.slug).await?;
     blocking(move || {
         let works = class.questions.remove(&id).unwrap_or_default();
-        let found = QuestionAnalysis::of(&lesson, &app.variants, &id, &works)?;
+        let found = QuestionAnalysis::of(&lesson, (&app.variants, &app.near), &id, &works)?;
         found.map(Answer).ok_or_else(|| lessons::unknown_question(&lesson, &id))
     })
     .await
