@@ -9,7 +9,7 @@ use triad_lessons::exercise::Question;
 
 use crate::policy::{Case, Decided, Extension, Handed, Moment, Policy, Standing, When, standing};
 use crate::problem::Problem;
-use crate::store::{Assignment, Decision, DecisionKind, Store};
+use crate::store::{Assignment, Decision, DecisionKind, Regraded, Store};
 
 /// What somebody who teaches gave an explanation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -42,6 +42,8 @@ pub struct Entry {
     pub predicted: Vec<String>,
     /// What is allowed to this person.
     pub extension: Option<Extension>,
+    /// When the last regrade that holds changed what this person has reached.
+    pub regraded: Option<Moment>,
 }
 
 /// What is kept about everybody's work.
@@ -105,6 +107,19 @@ impl Book {
         }
         for one in store.decisions(course, person, lesson).await? {
             book.entry(one.person.clone(), one.lesson.clone()).take(one);
+        }
+        let mut regrades: HashMap<String, (String, Moment)> = HashMap::new();
+        for one in store.regrades(course).await? {
+            if one.undone.is_none() && lesson.is_none_or(|lesson| one.lesson == lesson) {
+                regrades.insert(one.id, (one.lesson, one.at));
+            }
+        }
+        let changed = |one: &Regraded| (one.after - one.before).abs() > 0.0;
+        for one in store.regraded(course, person).await?.into_iter().filter(changed) {
+            if let Some((lesson, at)) = regrades.get(&one.regrade) {
+                let entry = book.entry(one.person, lesson.clone());
+                entry.regraded = entry.regraded.max(Some(*at));
+            }
         }
         for (who, lesson, extension) in store.extensions(course, person, lesson).await? {
             book.entry(who, lesson).extension = Some(extension);

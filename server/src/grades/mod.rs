@@ -135,7 +135,7 @@ fn reached(book: &Book, person: &str, lesson: &Lesson, now: Moment) -> Option<(S
 /// Whether a student's request for a look again waits for an answer.
 pub fn asks(entry: &Entry) -> bool {
     let marked = entry.marked.last().map(|one| one.at);
-    let last_decided = entry.decided.last().map(|one| one.at).max(marked);
+    let last_decided = entry.decided.last().map(|one| one.at).max(marked).max(entry.regraded);
     let last_said = entry.said.last();
     last_said
         .is_some_and(|said| said.kind == DecisionKind::Request && last_decided.is_none_or(|at| at < said.at))

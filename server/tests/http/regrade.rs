@@ -105,7 +105,16 @@ async fn a_regrade_is_looked_at_applied_seen_and_taken_back() {
     let seen = class.ask("POST", preview, &owner, None).await.json();
     let id = seen["id"].as_str().expect("an id");
     apply(id, " ").await.problem(422, "invalid-decision");
+    // Both ask to look again; the regrade answers the one for whom it changes something.
+    let words = json!({"lesson": "simple-pendulum", "text": "is this worth so little?"});
+    for who in [&ada, &eve] {
+        let asked = class.ask("POST", "/api/v1/record/requests", who, Some(words.clone())).await;
+        assert_eq!(asked.status, 201, "{}", asked.json());
+    }
+    let asks = async |who: &str| class.see(who, "/api/v1/record").await["lessons"][0]["asked"] == true;
+    assert!(asks(&ada).await && asks(&eve).await);
     assert_eq!(apply(id, "the question was worth too little").await.status, 204);
+    assert!(!asks(&ada).await && asks(&eve).await);
     apply(id, "twice").await.problem(409, "out-of-date");
     let points = async || class.see(&ada, "/api/v1/record").await["lessons"][0].clone();
     let record = points().await;
@@ -122,6 +131,7 @@ async fn a_regrade_is_looked_at_applied_seen_and_taken_back() {
     let undo = format!("/api/v1/regrades/{}/undo", applied[0]["id"].as_str().expect("an id"));
     assert_eq!(class.ask("POST", &undo, &owner, None).await.status, 204);
     class.ask("POST", &undo, &owner, None).await.problem(404, "unknown-entry");
+    assert!(asks(&ada).await, "what answered is taken back");
     assert_eq!(points().await["standing"]["points"]["points"], 1.5);
     let listed = class.see(&ada, "/api/v1/submissions").await;
     assert_eq!((&listed[1]["id"], &listed[1]["earned"]), (&first["id"], &json!(0.0)));
