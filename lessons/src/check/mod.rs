@@ -6,6 +6,7 @@ mod diagram;
 mod findings;
 pub(crate) mod guessing;
 mod measured;
+pub(crate) mod minutes;
 mod notions;
 mod predictions;
 mod programs;
@@ -70,10 +71,19 @@ pub fn check_course_files(course: &Course) -> Vec<Fault> {
     course.stray().iter().map(stray).collect()
 }
 
+/// What of a lesson's predictions does not come true in its run.
+#[cfg(test)]
+pub(crate) fn faults_of_predictions(lesson: &Lesson) -> Vec<Fault> {
+    let mut found = Findings::new(lesson);
+    predictions::happen(&mut found);
+    found.faults
+}
+
 /// Checks one lesson of a course.
 pub fn check_lesson(course: &Course, lesson: &Lesson) -> Vec<Fault> {
     let mut found = Findings::new(lesson);
     texts::about(course, &mut found);
+    minutes::honest(&mut found);
     notions::in_order(course, &mut found);
     texts::text(course, &mut found);
     texts::all_placeholders(&mut found);

@@ -25,6 +25,13 @@ fn fault(found: &mut Findings, id: &str, what: impl std::fmt::Display, remedy: &
 pub(super) fn written(course: &Course, found: &mut Findings) {
     let lesson = found.lesson;
     let mut ids = BTreeSet::new();
+    let (some, excused) = (!lesson.about.predictions.is_empty(), !lesson.about.unpredicted.trim().is_empty());
+    if some == excused {
+        let what = if some { "there are predictions, and unpredicted too" } else { "nothing is predicted" };
+        let remedy =
+            "ask for a [[prediction]] that the run decides, or say why there is none: unpredicted = \"…\"";
+        found.add("lesson.toml", 0, what, remedy);
+    }
     for one in &lesson.about.predictions {
         let id = one.id.as_str();
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';

@@ -18,8 +18,8 @@ const GRADED: usize = 200;
 const RUN: usize = 2;
 /// Share of the variants in which a misconception must be recognised as itself.
 const RECOGNISED: f64 = 0.95;
-/// Largest share of the points whose answers may be everybody's: those can be handed on, and stand in a public course.
-const MOST_COMMON: f64 = 0.6;
+/// Questions below which one number is most of a lesson, whatever its weight.
+const FEW: usize = 4;
 
 /// How often a misconception was recognised as itself, of the variants that ask its question.
 #[derive(Default)]
@@ -109,13 +109,18 @@ fn is_personal(lesson: &Lesson, own: &Question) -> bool {
     }
 }
 
-/// What everybody answers alike must not be worth as much as it takes to pass.
+/// What everybody answers alike can be handed on, and stands in a public course: with one number more, which somebody has by luck,
+/// it must not be worth as much as it takes to pass.
 fn handed_on(personal: &BTreeSet<String>, found: &mut Findings) {
     let exercise = &found.lesson.exercise;
     let common = exercise.at_most(|q| !q.is_judged_by_people() && !personal.contains(&q.id));
-    let all = exercise.possible();
-    if common > MOST_COMMON * all {
-        let what = format!("answers that are the same for everybody have {common} of {all} points");
+    let numbers = exercise.questions.iter().filter(|q| matches!(q.body, QuestionBody::Quantity(_)));
+    let lucky = numbers.filter(|q| personal.contains(&q.id)).map(|q| q.points).fold(0.0, f64::max);
+    let (all, passes) = (exercise.possible(), exercise.pass_mark);
+    if exercise.questions.len() >= FEW && common + lucky >= passes * all {
+        let what = format!(
+            "answers that are the same for everybody have {common} of {all} points, one number more {lucky}: together they pass"
+        );
         let remedy =
             "let more numbers be drawn, draw questions from a pool, or give what is common fewer points";
         found.add("exercise.toml", 0, what, remedy);

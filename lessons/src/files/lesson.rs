@@ -85,6 +85,9 @@ pub struct LessonFile {
     /// What has to be predicted before the scenario runs.
     #[serde(default, rename = "prediction")]
     pub predictions: Vec<PredictionFile>,
+    /// Why nothing has to be predicted, where that is so.
+    #[serde(default)]
+    pub unpredicted: String,
 }
 
 /// One step of working with the scenario.

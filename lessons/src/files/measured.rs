@@ -45,6 +45,8 @@ pub enum CountKind {
     Coordinates,
     /// Entries in the pattern of the Jacobian.
     JacobianEntries,
+    /// Evaluations that the run has taken.
+    Evaluations,
 }
 
 /// What of a body's motion.

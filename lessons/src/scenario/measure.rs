@@ -147,6 +147,7 @@ pub(crate) fn measure(
             CountKind::Rows => report.rows,
             CountKind::Coordinates => report.coordinates,
             CountKind::JacobianEntries => simulation.jacobian().entries.len(),
+            CountKind::Evaluations => return Ok(vec![simulation.summary().evaluations as f64]),
         };
         return Ok(vec![n as f64]);
     }

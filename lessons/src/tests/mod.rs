@@ -233,7 +233,7 @@ fn findings_of_the_check_name_place_and_remedy() {
             "hints = [\"\", \"Write down both",
             "a hint is missing or empty",
         ],
-        ["lesson.toml", "minutes = 30", "minutes = 190", "10 to 180 minutes"],
+        ["lesson.toml", "minutes = 35", "minutes = 190", "10 to 180 minutes"],
         [
             "lesson.toml",
             "kind = \"run\"",
@@ -357,7 +357,7 @@ fn errors_of_reading_name_file_and_line() {
         ("reference/answers.toml", "ellipk(1/2)", "ellipq(1/2)", "reference/answers.toml, line"),
         ("scene.json", "\"name\"", "name", "scene.json, line 2"),
         ("scene.json", "\"revolute\"", "\"hinge\"", "02-simple-pendulum/scene.json, line"),
-        ("lesson.toml", "minutes = 30", "minutes = \"30\"", "lesson.toml, line"),
+        ("lesson.toml", "minutes = 35", "minutes = \"35\"", "lesson.toml, line"),
     ] {
         let error = broken(path, from, to).unwrap_err();
         assert!(error.contains(says), "{path}: {error}");

@@ -1,8 +1,46 @@
 //! Predictions that an author writes wrongly are found: by the run, and by their form.
 
 use crate::answers::TypedValue;
+use crate::check::faults_of_predictions;
 use crate::files::PredictionFile;
 use crate::{Course, Lesson, check_lesson};
+
+use super::course;
+
+/// Students in whose run, too, what is said to happen does.
+const STUDENTS: usize = 40;
+
+/// The check runs two of them.
+#[test]
+fn what_is_said_to_happen_does_for_everybody() {
+    let mut faults = Vec::new();
+    for lesson in course().lessons() {
+        for k in 0..STUDENTS {
+            let own = lesson.variant_in(&format!("student-{k}"), "secret").unwrap();
+            faults
+                .extend(faults_of_predictions(&own).into_iter().map(|fault| format!("student {k}: {fault}")));
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
+/// Nothing is run that was not predicted: a lesson that asks for nothing says why.
+#[test]
+fn a_lesson_without_a_prediction_says_why() {
+    let course = course();
+    let without: Vec<&str> =
+        course.lessons().iter().filter(|l| l.about.predictions.is_empty()).map(|l| l.slug.as_str()).collect();
+    assert_eq!(without, ["capstone", "exam"]);
+    let about = |change: fn(&mut Lesson)| {
+        let mut lesson = course.lesson("exam").unwrap().clone();
+        change(&mut lesson);
+        let found = check_lesson(&course, &lesson).into_iter().map(|fault| fault.to_string());
+        found.filter(|fault| fault.contains("predict")).collect::<Vec<_>>()
+    };
+    assert_eq!(about(|_| {}), [""; 0]);
+    let silent = about(|lesson| lesson.about.unpredicted = " ".to_owned());
+    assert!(silent.len() == 1 && silent[0].contains("nothing is predicted"), "{silent:?}");
+}
 
 /// What the check says of the pendulum's prediction after a change of it.
 fn faults(change: impl Fn(&mut PredictionFile)) -> Vec<String> {

@@ -7,6 +7,7 @@ use crate::answers::{Answer, TypedValue};
 use crate::exercise::{QuantityQuestion, Question, QuestionBody, numbers};
 use crate::grading::{formula, quantity};
 use crate::lesson::Lesson;
+use crate::mistakes::ALL;
 use crate::random::SeededRandom;
 use crate::verdict::Mark;
 use crate::verdict::feedback::Judgement;
@@ -24,6 +25,104 @@ const STUDENTS: usize = 40;
 /// Random numbers for each question.
 const DRAWS: usize = 200;
 
+/// Share of the mistakes with a known slip that may get words of another one: 115 of 2362 as measured, which are listed. Most of
+/// them are a missing factor or term that another slip leads to, too, with the numbers of the text.
+const MISDIRECTED: f64 = 0.05;
+
+/// What may be said of a slip by what a question knows by itself: words that are true of it. What an author writes about a value
+/// is meant for this value, and is true of it by that.
+const TRUE_OF: &[(&[&str], &[&str])] = &[
+    (
+        &["sign", "one sign"],
+        &[
+            "opposite-sign",
+            "component-sign",
+            "entry-sign",
+            "term-sign",
+            "gravity-up",
+            "other-side",
+            "one-component",
+        ],
+    ),
+    (
+        &["factor", "twice", "half"],
+        &[
+            "factor-two",
+            "part-factor-two",
+            "factor-pi",
+            "factor-root-two",
+            "factor-small",
+            "factor-missing",
+            "given-factor",
+            "constant-factor",
+            "length",
+            "moment-of-inertia",
+            "count",
+            "power-of-ten",
+            "angle-unit",
+            "period",
+            "missing-symbol",
+        ],
+    ),
+    (&["thousand", "thousandth", "unit"], &["power-of-ten"]),
+    (&["one left out"], &["component-missing", "zero", "one-component"]),
+    (&["exchanged", "swapped"], &["component-order", "entry-order", "other-number", "transposed"]),
+    (&["zero"], &["zero", "count"]),
+    (&["one more", "one less", "off-by-one"], &["off-by-one", "other-count", "count", "zero"]),
+    (&["sine-cosine"], &["sine-cosine"]),
+    (&["degrees"], &["angle-unit"]),
+    (&["gravity"], &["other-gravity", "mass-and-weight", "no-gravity", "factor-missing", "nearly"]),
+    (
+        &["power"],
+        &[
+            "power",
+            "symbol-power",
+            "factor-missing",
+            "given-factor",
+            "missing-symbol",
+            "function-missing",
+            "part-result",
+        ],
+    ),
+    (&["reciprocal", "upside-down"], &["upside-down", "symbol-power", "period"]),
+    (
+        &["term-missing"],
+        &[
+            "term-missing",
+            "component-missing",
+            "symbols-missing",
+            "missing-symbol",
+            "function-missing",
+            "factor-missing",
+            "part-result",
+            "no-gravity",
+            "at-rest",
+            "one-component",
+            "mass-and-weight",
+            "count",
+            "zero",
+            "moment-of-inertia",
+            "given-number",
+            "given-factor",
+        ],
+    ),
+    (
+        &["wrong-inertia"],
+        &[
+            "moment-of-inertia",
+            "factor-two",
+            "factor-small",
+            "factor-missing",
+            "given-number",
+            "other-number",
+        ],
+    ),
+    (
+        &["count", "counted-twice"],
+        &["count", "off-by-one", "other-count", "term-missing", "term-sign", "zero", "opposite-sign"],
+    ),
+];
+
 /// Values by lesson, question and cause.
 type Corpus = BTreeMap<String, BTreeMap<String, BTreeMap<String, Vec<TypedValue>>>>;
 
@@ -36,6 +135,8 @@ struct Count {
     returned: Vec<String>,
     right: Vec<String>,
     codes: BTreeMap<String, usize>,
+    /// What was recognised, by its code.
+    told: Vec<(String, String)>,
 }
 
 impl Count {
@@ -48,7 +149,8 @@ impl Count {
                 match judgement.misconception {
                     Some(code) => {
                         self.recognised += 1;
-                        *self.codes.entry(code).or_default() += 1;
+                        *self.codes.entry(code.clone()).or_default() += 1;
+                        self.told.push((what, code));
                     }
                     None => self.unknown.push(what),
                 }
@@ -220,6 +322,13 @@ fn typical_mistakes_get_words_of_their_own() {
         }
     }
     let shares = [report("written", &written), report("made", &made)];
+    let (known, astray) = misdirected(written.iter().chain(&made));
+    println!("{} of {known} are led astray:\n{}", astray.len(), astray.join("\n"));
+    assert!(
+        known >= 2000 && astray.len() as f64 <= MISDIRECTED * known as f64,
+        "{} of {known}",
+        astray.len()
+    );
     let all = || written.values().chain(made.values());
     assert!(all().map(|count| count.all).sum::<usize>() >= 800);
     for count in all() {
@@ -231,6 +340,21 @@ fn typical_mistakes_get_words_of_their_own() {
     let of = |count: fn(&Count) -> usize| all().map(count).sum::<usize>() as f64;
     let share = of(|count| count.recognised) / of(|count| count.all);
     assert!(share >= RECOGNISED && shares[0] >= WRITTEN, "{share} {shares:?}");
+}
+
+/// Mistakes whose slip is known, and those among them that get words of another one.
+fn misdirected<'a>(causes: impl Iterator<Item = (&'a String, &'a Count)>) -> (usize, Vec<String>) {
+    let generic = |code: &str| ALL.iter().any(|m| m.code == code);
+    let (mut all, mut led_astray) = (0, Vec::new());
+    for (cause, count) in causes {
+        let Some((_, fit)) = TRUE_OF.iter().find(|(causes, _)| causes.contains(&cause.as_str())) else {
+            continue;
+        };
+        all += count.told.len();
+        let astray = count.told.iter().filter(|(_, code)| generic(code) && !fit.contains(&code.as_str()));
+        led_astray.extend(astray.map(|(what, code)| format!("{cause}: {what} is told {code}")));
+    }
+    (all, led_astray)
 }
 
 /// Small whole numbers meet by chance: a wrong count is not told of squares, halves or angles.
