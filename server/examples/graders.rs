@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
-use triad_lessons::Course;
+use triad_lessons::{Course, Lesson};
 use triad_tests::load::Line;
 use triad_tests::postgres::{Postgres, psql};
 use triad_tests::program::{Server, triad};
@@ -50,8 +50,30 @@ fn program(words: &[&str], url: &str, folder: &Path) -> Command {
     command
 }
 
-/// Hands in so many, each of a student of its own; submissions accepted in a second.
-fn accepted(server: &Server, of_kind: &[(String, Value)], count: usize) -> f64 {
+/// What so many students hand in, each a question of the kind with its answer for the student's own numbers: the lesson, and the body.
+fn handed_in(course: &Course, kind: &str, count: usize) -> Vec<(String, Value)> {
+    let asks =
+        |lesson: &&Lesson| lesson.exercise.questions.iter().any(|question| kinds::is_of(kind, &question.body));
+    let lessons: Vec<&Lesson> = course.lessons().iter().filter(asks).collect();
+    let mut all = Vec::with_capacity(count);
+    let mut n = 0;
+    while all.len() < count {
+        let (lesson, student) = (lessons[n % lessons.len()], format!("student {n}"));
+        let mut own = lesson.variant(&student).expect("numbers of one's own");
+        own.exercise.questions.retain(|question| kinds::is_of(kind, &question.body));
+        // What is drawn from a pool is not asked of each student.
+        let mut of_kind: Vec<_> = kinds::answered(&own).into_iter().filter(|(one, _)| *one == kind).collect();
+        if !of_kind.is_empty() {
+            let (_, answers) = of_kind.swap_remove(n / lessons.len() % of_kind.len());
+            all.push((lesson.slug.clone(), json!({"student": student, "answers": answers})));
+        }
+        n += 1;
+    }
+    all
+}
+
+/// Hands in; submissions accepted in a second.
+fn accepted(server: &Server, all: &[(String, Value)]) -> f64 {
     let (next, began) = (AtomicUsize::new(0), Instant::now());
     std::thread::scope(|scope| {
         for _ in 0..CLIENTS {
@@ -59,19 +81,15 @@ fn accepted(server: &Server, of_kind: &[(String, Value)], count: usize) -> f64 {
                 let mut line = Line::open(&server.address);
                 loop {
                     let n = next.fetch_add(1, Ordering::Relaxed);
-                    if n >= count {
-                        return;
-                    }
-                    let (slug, answers) = &of_kind[n % of_kind.len()];
-                    let body = json!({"student": format!("student {n}"), "answers": answers});
+                    let Some((slug, body)) = all.get(n) else { return };
                     let path = format!("/api/v1/lessons/{slug}/submissions");
-                    let reply = line.ask("POST", &path, Some(&body));
+                    let reply = line.ask("POST", &path, Some(body));
                     assert_eq!(reply.status, 202, "{}", reply.text());
                 }
             });
         }
     });
-    count as f64 / began.elapsed().as_secs_f64()
+    all.len() as f64 / began.elapsed().as_secs_f64()
 }
 
 /// Submissions graded in a second by so many graders, once the first is.
@@ -101,25 +119,13 @@ fn main() {
     let course = Course::embedded().expect("a course");
     println!("| kind | accepted a second | graded a second by 1, 2, 4 graders |\n|---|---|---|");
     for (rank, kind) in kinds::KINDS.into_iter().enumerate() {
-        let mut of_kind = Vec::new();
-        for lesson in course.lessons() {
-            // What is drawn from a pool is not asked of each of these students.
-            let of_all = |answers: &kinds::Answers| {
-                let mut asked = lesson.exercise.questions.iter().filter(|one| answers.contains_key(&one.id));
-                asked.all(|question| question.pool.is_none())
-            };
-            let wanted = |(one, answers): &(&str, kinds::Answers)| *one == kind && of_all(answers);
-            for (_, answers) in kinds::answered(lesson).into_iter().filter(wanted) {
-                of_kind.push((lesson.slug.clone(), serde_json::to_value(answers).expect("JSON")));
-            }
-        }
-        let count = COUNTS[usize::from(rank > 3)];
+        let all = handed_in(&course, kind, COUNTS[usize::from(rank > 3)]);
         let (mut taken, mut rates) = (Vec::new(), Vec::new());
         for graders in GRADERS {
             let (url, folder) = (postgres.database(), tempfile::tempdir().unwrap());
             let server =
                 Server::of(&mut program(&["serve", "--port", "0", "--at-once", "0"], &url, folder.path()));
-            taken.push(accepted(&server, &of_kind, count));
+            taken.push(accepted(&server, &all));
             // It would grade, too.
             drop(server);
             rates.push(format!("{:.0}", graded(&url, folder.path(), graders)));

@@ -79,14 +79,13 @@ pub(super) fn judge(
     let (times, given) = read(task, text)?;
     let run = |task: &Trajectory| ReferenceMotion::new(task).map(Arc::new);
     let motion = known.motions.of(task.clone(), wanted, run).map_err(InvalidTrajectory::Reference)?;
-    let deviation = motion.deviation(&times, &given);
-    let error = deviation.total;
+    let error = motion.distance(&times, &given);
     let share = task.bands.iter().find(|b| error <= b.error).map_or(0.0, |b| b.share);
     if share == 1.0 {
         return Ok(Judgement::right(Feedback::TrajectoryRight { error, note: note.to_owned() }));
     }
     let usual = wrong_motions::recognise(task, &motion, &Table::new(&times, &given), wanted);
-    let finding = kind(task, &deviation, &times, &given, &motion, usual);
+    let finding = kind(task, &motion.deviation(&times, &given), &times, &given, &motion, usual);
     Ok(Judgement::wrong(share, finding.misconception(), Feedback::Trajectory { error, finding }))
 }
 
@@ -135,7 +134,7 @@ fn kind(
     let negative = given.iter().map(|v| v.iter().map(|x| -x).collect()).collect::<Vec<Vec<f64>>>();
     let worst = task.bands.last().map_or(0.0, |b| b.error);
     let (late, factor) = (d.late, d.factor);
-    if d.total > worst && motion.deviation(times, &negative).total <= worst {
+    if d.total > worst && motion.distance(times, &negative) <= worst {
         MotionFinding::OppositeSign
     } else if let Some(mistake) = known {
         MotionFinding::Usual(mistake)

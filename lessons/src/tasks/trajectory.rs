@@ -122,9 +122,14 @@ impl ReferenceMotion {
         if square > 0.0 { product / square } else { 1.0 }
     }
 
-    /// Tells apart what is off.
+    /// How far off a table is: the root of the mean square of the difference, relative.
+    pub(crate) fn distance(&self, times: &[f64], given: &[Vec<f64>]) -> f64 {
+        self.difference(times, given, 0.0, 1.0)
+    }
+
+    /// Tells apart what is off: a search, which takes longer than all else that is done with a table that is right.
     pub(crate) fn deviation(&self, times: &[f64], given: &[Vec<f64>]) -> Deviation {
-        let total = self.difference(times, given, 0.0, 1.0);
+        let total = self.distance(times, given);
         let few = times.len().div_ceil(SHIFT_POINTS).max(1);
         let thin: Vec<f64> = times.iter().copied().step_by(few).collect();
         let thin_given: Vec<Vec<f64>> =
