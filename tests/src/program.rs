@@ -172,6 +172,11 @@ impl Server {
         }
     }
 
+    /// The number of its process.
+    pub fn id(&self) -> u32 {
+        self.child.id()
+    }
+
     /// Processor time that the server has used, on Linux.
     pub fn processor_time(&self) -> Duration {
         self.vitals().processor

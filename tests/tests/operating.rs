@@ -316,6 +316,23 @@ fn the_program_runs_as_another_user_in_a_root_that_is_read_only() {
     assert_eq!((server.get("/readyz").status, server.get("/").status), (200, 200));
     assert_eq!(server.get("/api/v1/record").status, 401, "a class asks who it is");
     assert!(!data.join("grades.db").exists(), "what it writes is in its own folder");
+    // As the image's words promise, told by the system itself.
+    let told = |file: &str| fs::read_to_string(format!("/proc/{}/{file}", server.id())).unwrap();
+    let status = told("status");
+    for line in [
+        "Uid:\t65532\t65532",
+        "Gid:\t65532\t65532",
+        "CapPrm:\t0000000000000000",
+        "CapEff:\t0000000000000000",
+        "NoNewPrivs:\t1",
+    ] {
+        assert!(status.contains(line), "{line} is not in\n{status}");
+    }
+    let root = told("mounts").lines().next().unwrap_or_default().to_owned();
+    assert!(
+        root.split_whitespace().nth(3).is_some_and(|how| how.split(',').any(|word| word == "ro")),
+        "{root}"
+    );
     server.stop();
 }
 
