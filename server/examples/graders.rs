@@ -52,8 +52,9 @@ fn program(words: &[&str], url: &str, folder: &Path) -> Command {
 
 /// What so many students hand in, each a question of the kind with its answer for the student's own numbers: the lesson, and the body.
 fn handed_in(course: &Course, kind: &str, count: usize) -> Vec<(String, Value)> {
-    let asks =
-        |lesson: &&Lesson| lesson.exercise.questions.iter().any(|question| kinds::is_of(kind, &question.body));
+    let asks = |lesson: &&Lesson| {
+        lesson.exercise.questions.iter().any(|question| kinds::is_of(kind, &question.body))
+    };
     let lessons: Vec<&Lesson> = course.lessons().iter().filter(asks).collect();
     let mut all = Vec::with_capacity(count);
     let mut n = 0;
