@@ -175,6 +175,23 @@ fn course_with(path: &str, from: &str, to: &str) -> Files {
     files
 }
 
+/// Submissions of which no verdict comes.
+fn grades_met() -> Refusals<GradeError> {
+    let mut grades = Refusals::new(variants!(GradeError: UnknownQuestion, NoLongerWanted));
+    let course = Course::embedded().unwrap();
+    let submission =
+        Submission::from_json(r#"{"student": "ada", "answers": {"perod": {"value": "1"}}}"#).unwrap();
+    let error = crate::grade(course.lesson("simple-pendulum").unwrap(), &submission).unwrap_err();
+    grades.meet("a question that is not there", &error, error.code(), None, "");
+    let wanted = Wanted::default();
+    wanted.no_longer();
+    let lesson = course.lesson("simple-pendulum").unwrap();
+    let error =
+        crate::grade_if(lesson, &Submission::default(), &crate::Known::default(), &wanted).unwrap_err();
+    grades.meet("a verdict that nobody waits for", &error, error.code(), None, "");
+    grades
+}
+
 #[test]
 fn courses_and_lessons_that_cannot_be_read() {
     const EXERCISE: &str = "01-generic-rigid-body/exercise.toml";
@@ -227,17 +244,8 @@ fn courses_and_lessons_that_cannot_be_read() {
         what: "scene.json has no number at /bodies/9/mass; correct the pointer".to_owned(),
     };
     variants_met.meet("one draw of them", &error, error.code(), None, "");
-    let mut grades = Refusals::new(variants!(GradeError: UnknownQuestion, NoLongerWanted));
-    let course = Course::embedded().unwrap();
-    let submission =
-        Submission::from_json(r#"{"student": "ada", "answers": {"perod": {"value": "1"}}}"#).unwrap();
-    let error = crate::grade(course.lesson("simple-pendulum").unwrap(), &submission).unwrap_err();
-    grades.meet("a question that is not there", &error, error.code(), None, "");
-    let wanted = Wanted::default();
-    wanted.no_longer();
-    let lesson = course.lesson("simple-pendulum").unwrap();
-    let error =
-        crate::grade_if(lesson, &Submission::default(), &crate::Known::default(), &wanted).unwrap_err();
-    grades.meet("a verdict that nobody waits for", &error, error.code(), None, "");
-    all_reviewed("refusals-lessons", [courses.text(), lessons.text(), variants_met.text(), grades.text()]);
+    all_reviewed(
+        "refusals-lessons",
+        [courses.text(), lessons.text(), variants_met.text(), grades_met().text()],
+    );
 }

@@ -62,6 +62,7 @@ impl Class {
 }
 
 #[tokio::test]
+#[allow(clippy::too_many_lines)] // one regrade from the first look to its end
 async fn a_regrade_is_looked_at_applied_seen_and_taken_back() {
     let class = class().await;
     // Where graders share the gradebook they judge again, too.
