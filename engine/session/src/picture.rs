@@ -13,7 +13,7 @@ mod block;
 mod samples;
 
 pub use arrows::{ArrowKind, Glyphs, Piece};
-pub use block::{block, joints_told};
+pub use block::{block, frame_size, joints_told};
 pub use description::{BodyVisual, JointVisual, MarkerVisual, Pattern, SceneDescription, describe};
 pub use sample::{Pose, Sample, SampledReaction, sample};
 pub use samples::Samples;

@@ -5,8 +5,8 @@
 //! to write, 106 with a scene to write.
 
 use super::findings::Findings;
-use crate::Lesson;
 use crate::exercise::{Question, QuestionBody};
+use crate::lesson::Lesson;
 use crate::text::words;
 
 /// Words of technical prose read in a minute: half of what is read of a novel.

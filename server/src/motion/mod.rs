@@ -18,7 +18,7 @@ use triad_engine::scene::Scene;
 use crate::problem::Problem;
 use crate::work::still;
 use triad_engine::analysis::Wanted;
-use triad_session::picture::{Sample, SceneDescription, block, describe, sample};
+use triad_session::picture::{Sample, SceneDescription, block, describe, frame_size, sample};
 
 /// Frames by second of watching: as smooth as a page that draws evenly between them needs.
 const RATE: f64 = 30.0;
@@ -31,7 +31,7 @@ const SLOW: f64 = 4.0;
 /// Bytes of numbers: with the player and its text a file stays below 300 kB.
 const MOST_BYTES: usize = 150_000;
 /// Fewer frames than these are no motion: where they do not fit either, reactions are left out.
-const FEWEST: usize = 40;
+const FEWEST: usize = 38;
 /// Samples of a film that are held: more than fit into any motion. Beyond them every second one goes.
 const MOST_SAMPLES: usize = 4096;
 /// Integrator steps between two looks at the clock.
@@ -126,9 +126,8 @@ impl Film {
         self.samples.extend(self.last.take());
         let description = &self.description;
         let (bodies, all) = (description.bodies.len(), description.joints.len());
-        let frame = |joints: usize| 8 + 4 * (12 * bodies + 9 * joints);
-        let joints = if FEWEST * frame(all) > MOST_BYTES { 0 } else { all };
-        let most = (MOST_BYTES / frame(joints)).max(2);
+        let joints = if FEWEST * frame_size(bodies, all) > MOST_BYTES { 0 } else { all };
+        let most = (MOST_BYTES / frame_size(bodies, joints)).max(2);
         let scale = description.scale.fitted(self.samples.iter(), description.size);
         let every = self.samples.len().div_ceil(most).max(1);
         let last = self.samples.len().saturating_sub(1);

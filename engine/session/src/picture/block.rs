@@ -2,8 +2,8 @@
 //!
 //! A block is little-endian: the numbers of bodies, joints and frames and a zero, as `u32`; the frames' times in s as
 //! `f64`; then for each frame, as `f32`, of each body its centre of mass in m, its principal axes u, v, w, its velocity in
-//! m/s, its angular velocity in rad/s and its acceleration in m/s², and of each joint where its reaction acts in m, its force in N and its moment in N m, as [`Sample`] has them. A reaction that could
-//! not be found is NaN.
+//! m/s, its angular velocity in rad/s and its acceleration in m/s², and of each joint where its reaction acts in m, its force
+//! in N and its moment in N m, as [`Sample`] has them. A reaction that could not be found is NaN.
 
 use super::sample::Sample;
 
@@ -19,11 +19,15 @@ pub fn joints_told(joints: usize) -> usize {
     if joints > MAX_JOINTS { 0 } else { joints }
 }
 
+/// Bytes of one frame, its time included.
+pub fn frame_size(bodies: usize, joints: usize) -> usize {
+    size_of::<f64>() + size_of::<f32>() * (OF_BODY * bodies + OF_JOINT * joints)
+}
+
 /// The block of some frames, with so many joints.
 pub fn block(samples: &[Sample], joints: usize) -> Vec<u8> {
     let bodies = samples.first().map_or(0, |sample| sample.poses.len());
-    let frame = size_of::<f64>() + size_of::<f32>() * (OF_BODY * bodies + OF_JOINT * joints);
-    let mut block = Vec::with_capacity(16 + frame * samples.len());
+    let mut block = Vec::with_capacity(16 + frame_size(bodies, joints) * samples.len());
     for count in [bodies, joints, samples.len(), 0] {
         block.extend(u32::try_from(count).unwrap_or(u32::MAX).to_le_bytes());
     }

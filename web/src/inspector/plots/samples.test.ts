@@ -80,7 +80,9 @@ describe("the samples of a plot", () => {
     );
     expect(words).toContain("ΔE smallest about −2.4 J near 0.3 s");
   });
+});
 
+describe("the samples of a plot where little is known", () => {
   it("have no extremes told of a curve that is zero but for rounding", () => {
     const position = chart("Position of bob");
     const wavering = states.map((one) => ({
