@@ -122,7 +122,7 @@ async function plots() {
   say("phase plots and hodographs are drawn, and saved");
 }
 
-/** Lets the run of a lesson go on without a prediction. */
+/** Lets the run of a lesson go on without a prediction, which needs no name. */
 const unpredicted = () => page.locator("#prediction").getByRole("button", { name: "Skip" }).click();
 
 /** What a step of a lesson names is pressed where it is read. */
@@ -151,6 +151,10 @@ async function steps() {
   assert(stage.y >= 0 && stage.y < 100 && told.y + told.height <= 900 && matrix.y < 760, JSON.stringify({ stage, told, matrix }));
   await page.goto(`${address}/lessons/work-and-precision`);
   await at(0);
+  // What the run shows is hidden until then, and a step that wants it says so.
+  await page.locator("#steps").getByRole("button", { name: "All numbers of this scene" }).click();
+  await until("the prediction is asked for", () => page.locator("#announce").innerText(), (text) => /run waits/.test(text));
+  await unpredicted();
   await page.locator("#steps").getByRole("button", { name: "All numbers of this scene" }).click();
   await page.getByLabel("Find a number of the scene").waitFor();
   await page.screenshot({ path: join(pictures, "steps.png") });

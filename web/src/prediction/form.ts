@@ -6,7 +6,7 @@ import { student } from "../core/prefs";
 import { t } from "../core/texts";
 import { problemNotice } from "../ui/notice";
 
-/** What somebody says; no choice where they skip. */
+/** What somebody says; no choice where they skip, who then need no name. */
 export interface Said {
   name: string;
   choice: string | null;
@@ -92,7 +92,7 @@ export class PredictionForm {
 
   private async send(choice: string | null): Promise<void> {
     const name = this.name.value.trim();
-    if (!name) {
+    if (!name && choice !== null) {
       this.trouble.textContent = t("Write your name: the prediction is kept under it.");
       this.name.focus();
       return;

@@ -12,7 +12,7 @@ import { t } from "../core/texts";
 import type { Session } from "../session/session";
 import { problemNotice } from "../ui/notice";
 import { setStudent } from "../ui/shell";
-import { PredictionForm } from "./form";
+import { PredictionForm, type Said } from "./form";
 
 /** Something that stands before a run. */
 export interface Asked {
@@ -29,6 +29,8 @@ export class PredictionPanel implements Asked {
   private session: Session | undefined;
   private readonly kept = new Map<string, GivenPrediction>();
   private readonly revealed = new Set<string>();
+  /** Skipped by somebody without a name: kept by nobody, and asked again in another visit. */
+  private readonly passed = new Set<string>();
   private form: PredictionForm | undefined;
   private readonly undo: (() => void)[] = [];
   /** Another name: what that one has predicted. */
@@ -59,7 +61,7 @@ export class PredictionPanel implements Asked {
   }
 
   private get missing(): Prediction | undefined {
-    return this.lesson.predictions.find((one) => !this.kept.has(one.id));
+    return this.lesson.predictions.find((one) => !this.kept.has(one.id) && !this.passed.has(one.id));
   }
 
   private async load(): Promise<void> {
@@ -100,17 +102,19 @@ export class PredictionPanel implements Asked {
     this.reveal();
   }
 
-  private async give(
-    asked: Prediction,
-    { name, ...given }: { name: string; choice: string | null; why: string },
-  ): Promise<void> {
-    const kept = await api.predict(this.lesson.slug, { student: name, prediction: asked.id, ...given });
-    this.kept.set(asked.id, kept);
-    announce(
-      kept.choice
-        ? t("Your prediction is kept. Now run it.")
-        : t("Skipped, and kept as skipped. Now run it."),
-    );
+  private async give(asked: Prediction, { name, ...given }: Said): Promise<void> {
+    if (name) {
+      const kept = await api.predict(this.lesson.slug, { student: name, prediction: asked.id, ...given });
+      this.kept.set(asked.id, kept);
+      announce(
+        kept.choice
+          ? t("Your prediction is kept. Now run it.")
+          : t("Skipped, and kept as skipped. Now run it."),
+      );
+    } else {
+      this.passed.add(asked.id);
+      announce(t("Skipped without a name: nothing is kept. Now run it."));
+    }
     const { session } = this;
     if (asked.with && session) {
       const { values, places } = session.numbers;
@@ -118,7 +122,7 @@ export class PredictionPanel implements Asked {
     }
     this.paint();
     this.root.querySelector<HTMLElement>(".prediction-result")?.focus();
-    setStudent(name);
+    if (name) setStudent(name);
   }
 
   /** Shows what happened as soon as the run has shown it. */

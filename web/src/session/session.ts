@@ -110,6 +110,12 @@ export class Session extends Clock {
     this.draw({ what: "none" });
   }
 
+  /** Asks for what the run waits for; false where it waits for nothing. */
+  asked(): boolean {
+    this.gate?.();
+    return this.held;
+  }
+
   /** Lets the run go on. */
   release(): void {
     if (!this.gate) return;

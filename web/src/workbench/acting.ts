@@ -21,6 +21,8 @@ export function acting(
     } else if (action.do === "step") void session.forward();
     else if (action.do === "reset") void session.reset();
     else if (action.do === "run") void session.goTo(action.time);
+    // What the run shows is hidden while it waits.
+    else if (session.asked()) return;
     else if (action.do === "panel") showPanel(root, selectPanel, action.panel);
     else {
       showPanel(root, selectPanel, "parameters");

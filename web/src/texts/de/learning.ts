@@ -355,6 +355,8 @@ export const learning = {
     "Der Lauf wartet: Sag erst, was du erwartest, oder lass es aus.",
   "Your prediction is kept. Now run it.": "Deine Vorhersage ist gespeichert. Jetzt lass ihn laufen.",
   "Skipped, and kept as skipped. Now run it.": "Ausgelassen und so gespeichert. Jetzt lass ihn laufen.",
+  "Skipped without a name: nothing is kept. Now run it.":
+    "Ohne Namen ausgelassen: nichts wird gespeichert. Jetzt lass ihn laufen.",
   "You predicted:": "Du hast vorhergesagt:",
   "You skipped the prediction.": "Du hast die Vorhersage ausgelassen.",
   "What happened:": "Was geschah:",
