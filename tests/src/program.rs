@@ -235,6 +235,23 @@ impl Server {
     }
 }
 
+/// The lines of a log, each a JSON object.
+pub fn log_lines(log: &Path) -> Vec<Value> {
+    let text = std::fs::read_to_string(log).unwrap();
+    text.lines().map(|line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {line}"))).collect()
+}
+
+/// A program that is asked to end with its test, and ends its own children: killed, it would leave them behind.
+#[derive(Debug)]
+pub struct Ending(pub Child);
+
+impl Drop for Ending {
+    fn drop(&mut self) {
+        let _ = Command::new("kill").args(["-TERM", &self.0.id().to_string()]).status();
+        let _ = self.0.wait();
+    }
+}
+
 /// What a server says at its admin address, which has a port of its own: its log of JSON lines names it.
 pub fn admin(log: &Path, path: &str) -> Reply {
     let text = std::fs::read_to_string(log).unwrap();
