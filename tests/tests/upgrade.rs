@@ -11,9 +11,10 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 use triad_tests::person::Person;
 use triad_tests::postgres::Postgres;
-use triad_tests::program::{Server, triad};
+use triad_tests::program::{HANG, Server, triad};
 
 /// What is handed in to: all of it, and by whoever is there.
 const QUESTION: (&str, &str, &str) = ("simple-pendulum", "tension-bottom", "N");
@@ -22,8 +23,8 @@ const STUDENTS: usize = 4;
 const EACH: usize = 4;
 
 /// What a later version may do to tables on which this one works: each has a column more, there is a table more, and the format is
-/// the next one. It holds what every program holds that makes or changes tables.
-const LATER: &str = "BEGIN; SELECT pg_advisory_xact_lock(128034743084033); \
+/// the next one. It holds what every program holds that makes or changes tables, and gives way as they do.
+const LATER: &str = "BEGIN; SELECT pg_advisory_xact_lock(128034743084033); SET LOCAL lock_timeout = '200ms'; \
     DO $$ DECLARE one RECORD; BEGIN \
     FOR one IN SELECT table_name FROM information_schema.tables WHERE table_schema = 'public' LOOP \
     EXECUTE format('ALTER TABLE %I ADD COLUMN later TEXT NOT NULL DEFAULT ''later''', one.table_name); END LOOP; END $$; \
@@ -64,11 +65,25 @@ impl Version<'_> {
     }
 }
 
-fn psql(url: &str, statement: &str) -> String {
+/// What a statement tells, or why it failed.
+fn told(url: &str, statement: &str) -> Result<String, String> {
     let told =
         Command::new("psql").args(["-qAtX", "-v", "ON_ERROR_STOP=1", "-c", statement, url]).output().unwrap();
-    assert!(told.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
-    String::from_utf8_lossy(&told.stdout).trim().to_owned()
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).trim().to_owned();
+    if told.status.success() { Ok(text(&told.stdout)) } else { Err(text(&told.stderr)) }
+}
+
+fn psql(url: &str, statement: &str) -> String {
+    told(url, statement).unwrap()
+}
+
+/// Changes the tables as a later program does.
+fn change(url: &str) {
+    let began = Instant::now();
+    while let Err(said) = told(url, LATER) {
+        assert!(said.contains("lock timeout") && began.elapsed() < HANG, "{said}");
+        std::thread::sleep(Duration::from_millis(100));
+    }
 }
 
 /// A teacher and students.
@@ -123,7 +138,7 @@ fn programs_go_on_while_a_later_one_adds_to_their_tables() {
     let changed = AtomicBool::new(false);
     handed += std::thread::scope(|scope| {
         let changing = scope.spawn(|| {
-            psql(&url, LATER);
+            change(&url);
             changed.store(true, Ordering::Relaxed);
         });
         let mut count = 0;

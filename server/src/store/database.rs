@@ -205,9 +205,11 @@ pub(super) async fn set_format(connection: &mut AnyConnection, format: i64) -> R
     Ok(())
 }
 
-/// Makes what the tables need on a server.
+/// Makes what the tables need on a server. What changes them there gives way, until the end of the transaction, to those who work
+/// on them: where two wait for each other the server would end either of them after a second.
 pub(super) async fn prepare(connection: &mut AnyConnection) -> Result<(), StoreError> {
     if Kind::of(connection) == Kind::Postgres {
+        sqlx::query("SET LOCAL lock_timeout = '200ms'").execute(&mut *connection).await?;
         sqlx::query(REFUSE).execute(connection).await?;
     }
     Ok(())

@@ -39,6 +39,7 @@ mod transaction;
 
 use std::path::Path;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use sqlx::Any;
 use sqlx::pool::PoolConnection;
@@ -53,7 +54,7 @@ pub use class::{
 pub use copies::{Copied, Imported, OwnEvent, Pieces, restore};
 #[cfg(test)]
 use copies::{LEFT, OF_COURSE};
-use database::Pools;
+use database::{PATIENCE, Pools};
 pub use error::StoreError;
 use file::Place;
 pub use judging::{Judging, NewJudging, Outcome};
@@ -228,11 +229,21 @@ impl Store {
     }
 }
 
-/// Brings the tables up to date, in one transaction.
+/// Brings the tables up to date, in one transaction. While others work on them it begins anew as often as it has to give way.
 async fn migrate(pools: &Pools) -> Result<(), StoreError> {
-    let mut transaction = Transaction::begin(&pools.writer).await?;
-    schema::migrate(&mut transaction).await?;
-    transaction.commit().await
+    const MOST: Duration = Duration::from_mins(1);
+    let began = Instant::now();
+    loop {
+        let mut transaction = Transaction::begin(&pools.writer).await?;
+        match schema::migrate(&mut transaction).await {
+            Err(StoreError::Busy) if began.elapsed() < MOST => transaction.rollback().await?,
+            made => {
+                made?;
+                return transaction.commit().await;
+            }
+        }
+        tokio::time::sleep(PATIENCE / 50).await;
+    }
 }
 
 /// Now, in milliseconds since 1970.

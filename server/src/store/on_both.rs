@@ -120,6 +120,28 @@ async fn of_programs_that_start_at_once_one_brings_the_tables_up_to_date() {
     assert_eq!(seen[0], seen[1], "six at once change what one does");
 }
 
+/// Tables that are brought up to date in the middle of somebody's transaction wait for it, and never make it fail.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_change_of_the_tables_gives_way_to_those_who_work_on_them() {
+    let Some(server) = postgres::given() else { return };
+    let address = server.database();
+    let store = Store::of_server(&address).expect("an address");
+    let mut transaction = store.write().await.expect("begins");
+    assert!(schema::make_of_format_2(&mut transaction).await.expect("makes"));
+    transaction.commit().await.expect("is kept");
+
+    // The change of `assignment` comes first and that of `verdict` after it: here it is the other way round.
+    let mut working = store.write().await.expect("begins");
+    working.execute("LOCK TABLE verdict IN ACCESS SHARE MODE").await.expect("is free");
+    let opening = tokio::spawn(async move { at(&address).await });
+    // Longer than the server waits before it looks who waits for whom.
+    tokio::time::sleep(Duration::from_millis(1500)).await;
+    assert!(!opening.is_finished());
+    working.execute("LOCK TABLE assignment IN ACCESS SHARE MODE").await.expect("is given way to");
+    working.commit().await.expect("is kept");
+    hand_in(&opening.await.expect("ends"), &new("ada")).await.expect("keeps");
+}
+
 /// What keeps a server's database from being opened is told with its remedy, and without the password.
 #[tokio::test]
 async fn a_server_that_refuses_is_told_with_what_to_do() {
