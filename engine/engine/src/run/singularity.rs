@@ -10,6 +10,7 @@ mod found;
 mod history;
 mod passage;
 mod probe;
+mod sample;
 mod search;
 
 pub use found::SingularConfiguration;
@@ -20,6 +21,7 @@ use found::Found;
 use history::IslandHistory;
 use passage::{Examiner, root};
 use probe::{Path, Probe};
+use sample::Sample;
 use search::{SAMPLES, Search, StepData, Unresolved};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::Rank;
@@ -55,7 +57,7 @@ pub struct SingularityMonitor {
     found: Found,
     examiner: Examiner,
     /// Pivot products at times of the last step: its start, its end, and those of the probes.
-    samples: Vec<Vec<f64>>,
+    samples: Vec<Sample>,
     examined: Vec<f64>,
     /// Whether rows that hardly hold are kept on the way past a place that was not resolved, and steps taken again there.
     resolving: bool,
@@ -84,7 +86,7 @@ impl SingularityMonitor {
             islands: Vec::new(),
             found: Found::new(constraints),
             examiner: Examiner::default(),
-            samples: (0..SAMPLES).map(|_| Vec::with_capacity(constraints)).collect(),
+            samples: (0..SAMPLES).map(|_| Sample::new(constraints)).collect(),
             examined: Vec::with_capacity(USUAL_DIPS),
             resolving: false,
             retreats: 0,
@@ -161,9 +163,9 @@ impl SingularityMonitor {
             history.constraints = constraints.map_or_else(|| all.collect(), <[usize]>::to_vec);
         }
         let known = pivot_products.is_some_and(|products| !products.is_empty());
-        self.samples.iter_mut().for_each(|sample| sample.resize(history.constraints.len(), 0.0));
+        self.samples.iter_mut().for_each(|sample| sample.resize(history.constraints.len()));
         if let Some(products) = pivot_products.filter(|_| known) {
-            self.samples[1].copy_from_slice(products);
+            self.samples[1].products.copy_from_slice(products);
         }
         let open = if self.violated { violation::relative(&mechanism.system, &mechanism.state) } else { 0.0 };
         let data = StepData {
@@ -201,22 +203,23 @@ impl SingularityMonitor {
             out.copy_from_slice(track.pivot_products());
         };
         if !known {
-            sample(end, &mut samples[1]);
+            sample(end, &mut samples[1].products);
         }
         if history.is_new() {
-            sample(start, &mut samples[0]);
-            history.begin(&samples[0], pace);
+            sample(start, &mut samples[0].products);
+            history.begin(&samples[0].products, pace);
         } else {
-            samples[0].copy_from_slice(&history.pivot_products);
+            samples[0].products.copy_from_slice(&history.pivot_products);
         }
-        examiner.allocate(track.numbers(), samples[0].len());
-        history.note_largest(&samples[1]);
+        examiner.allocate(track.numbers(), samples[0].products.len());
+        history.note_largest(&samples[1].products);
+        samples[..2].iter_mut().for_each(|sample| sample.measure(&history.largest, step.floor()));
         examined.clear();
         let mut search = Search { step, track, found, history, examiner, samples, examined };
         search.within((start, 0), (end, 1), 2)?;
         let history = &mut islands[island];
-        history.note_change(&samples[0], &samples[1], (end - start) * step.pace);
-        history.pivot_products.clone_from(&samples[1]);
+        history.note_change(&samples[0].products, &samples[1].products, (end - start) * step.pace);
+        history.pivot_products.clone_from(&samples[1].products);
         history.pace = pace;
         Ok(())
     }
@@ -233,7 +236,7 @@ impl SingularityMonitor {
             let largest = &self.islands[island].largest;
             let least = (0..largest.len())
                 .filter(|&joint| largest[joint] > ZERO)
-                .map(|joint| root(&self.samples[1], largest, joint));
+                .map(|joint| root(&self.samples[1].products, largest, joint));
             let behind = least.fold(1.0, f64::min) > LEFT_BEHIND;
             if self.resolving && behind && self.examined.is_empty() {
                 self.resolve(false, mechanism, integrator);

@@ -3,9 +3,9 @@
 use super::found::{Doubtful, Found};
 use super::history::IslandHistory;
 use super::passage::{Dip, Examiner, Finding, root};
+use super::sample::{REDUNDANT, Sample};
 use crate::integrate::Track;
-use std::f64::consts::{FRAC_PI_2, PI};
-use triad_linalg::fma;
+use std::f64::consts::PI;
 
 /// Greatest number of times that a step is halved.
 const MAX_DEPTH: usize = 14;
@@ -20,8 +20,6 @@ const OBSERVED_RATE_BOUND: f64 = 2.0;
 /// many change fastest just there.
 const NEAR: f64 = 0.1;
 const STEEP: f64 = 2.0;
-/// A joint whose largest pivot product is below this is redundant.
-const REDUNDANT: f64 = 1e-7;
 /// Root of a pivot product, relative to the largest, below which a dip is looked at, and a joint has its zero at one.
 const DEEP: f64 = 0.1;
 /// Turn of the rows below which a part of a step is not divided, rad.
@@ -75,6 +73,14 @@ pub(super) struct StepData {
     pub given_up: f64,
 }
 
+impl StepData {
+    /// Root of a pivot product, as a part of the largest, that counts as zero: in steps that rounding makes very short both ends may be
+    /// indistinguishable from it.
+    pub(super) fn floor(&self) -> f64 {
+        self.zero.sqrt()
+    }
+}
+
 /// The search for dips of pivot products inside a step.
 pub(super) struct Search<'a> {
     pub step: StepData,
@@ -83,7 +89,7 @@ pub(super) struct Search<'a> {
     pub history: &'a mut IslandHistory,
     pub examiner: &'a mut Examiner,
     /// Pivot products at the start and at the end of the step, then those of probes.
-    pub samples: &'a mut [Vec<f64>],
+    pub samples: &'a mut [Sample],
     /// Times of the dips that were looked at in the step.
     pub examined: &'a mut Vec<f64>,
 }
@@ -93,12 +99,14 @@ impl Search<'_> {
     fn sample(&mut self, t: f64, place: usize) {
         self.examiner.count += 1;
         self.track.place(t);
-        self.samples[place].copy_from_slice(self.track.pivot_products());
+        let sample = &mut self.samples[place];
+        sample.products.copy_from_slice(self.track.pivot_products());
+        sample.measure(&self.history.largest, self.step.floor());
     }
 
     /// Square of the distance of a joint from a singular configuration, relative to its largest.
     fn square(&self, joint: usize, place: usize) -> f64 {
-        self.samples[place][joint] / self.history.largest[joint]
+        self.samples[place].products[joint] / self.history.largest[joint]
     }
 
     /// Whether a dip was looked at that belongs to a time.
@@ -109,21 +117,19 @@ impl Search<'_> {
     /// The joint that is most likely to become dependent between two samples; and its distances from that at both: zero there,
     /// π/2 at its largest pivot product, and π where it has just come from a zero that is known.
     fn suspect(&self, a: (f64, usize), b: (f64, usize)) -> Option<(usize, f64, f64)> {
-        // In steps that rounding makes very short both ends may be indistinguishable from zero.
-        let floor = self.step.zero.sqrt();
+        let floor = self.step.floor();
         let turned = (b.0 - a.0) * self.step.pace;
-        let IslandHistory { largest, fastest_change, .. } = &*self.history;
         let known = [a, b].map(|end| self.is_examined(end.0));
+        let [from, to] = [a, b].map(|end| &self.samples[end.1]);
         let mut found = None;
         let mut least = 1.0;
-        for (joint, _) in largest.iter().enumerate().filter(|(_, largest)| **largest > REDUNDANT) {
-            let observed = fastest_change.get(joint);
-            let rate = observed.map_or(RATE_BOUND, |fastest| RATE_BOUND.max(OBSERVED_RATE_BOUND * fastest));
-            let roots = [a, b].map(|end| self.square(joint, end.1).clamp(0.0, 1.0).sqrt());
+        let above = from.angles.iter().zip(&to.angles).map(|(from, to)| from + to);
+        for (joint, (above, fastest)) in above.zip(&self.history.fastest_change).enumerate() {
+            let turn = RATE_BOUND.max(OBSERVED_RATE_BOUND * fastest) * turned;
+            let roots = [from.roots[joint], to.roots[joint]];
             // Most joints are far from it, and farther than the one found so far: exact arcsines cost more than all else here.
-            let far = roots.iter().all(|root| root - floor >= NEAR);
-            let most = if far { 1.0 } else { STEEP } * rate * turned;
-            if roots.iter().map(|root| angle_above(root - floor)).sum::<f64>() > least * most {
+            let far = roots[0] - floor >= NEAR && roots[1] - floor >= NEAR;
+            if above > least * if far { turn } else { STEEP * turn } {
                 continue;
             }
             let part = |end: usize| match roots[end] {
@@ -133,7 +139,7 @@ impl Search<'_> {
             };
             let (from, to) = (part(0), part(1));
             let steep = if from.min(to) < NEAR { STEEP } else { 1.0 };
-            let bound = steep * rate * turned;
+            let bound = steep * turn;
             // A comparison that is false for NaN as well.
             if from + to <= least * bound {
                 least = (from + to) / bound.max(f64::MIN_POSITIVE);
@@ -299,17 +305,10 @@ impl Search<'_> {
 
     /// Whether a joint is about as near to losing its hold as that of a dip.
     fn loses_hold(&self, joint: usize, dip: Dip) -> bool {
-        let products = &self.samples[self.samples.len() - 1];
+        let products = &self.samples[self.samples.len() - 1].products;
         self.history.largest[joint] > REDUNDANT
             && root(products, &self.history.largest, joint) < DEEP.min(10.0 * dip.root.max(EXACT.0))
     }
-}
-
-/// A lower bound of the arcsine of a number up to 1, at most 2e-4 below it (Abramowitz and Stegun, 4.4.45); zero if that is negative.
-fn angle_above(sine: f64) -> f64 {
-    let x = sine.max(0.0);
-    let slope = fma(fma(fma(-0.018_729_3, x, 0.074_261), x, -0.212_114_4), x, 1.570_728_8);
-    (FRAC_PI_2 - 1e-4 - (1.0 - x).sqrt() * slope).max(0.0)
 }
 
 /// A time near the best of three points, if that is an end of them, and the vertex of their parabola is too near it to be told
