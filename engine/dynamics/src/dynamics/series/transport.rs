@@ -4,12 +4,15 @@
 //! fewer terms than those about x, because only their difference counts. What a step itself adds is read off the
 //! accelerations at its end, where its polynomials miss those of the equations by a known multiple.
 
+mod differences;
+
 use super::lanes::largest;
 use super::step::Part;
 use super::{Bodies, Series};
 use crate::newton::Projectable;
 use crate::system::System;
-use pulp::{Arch, Simd, WithSimd};
+use differences::{Differ, find_missed, moved, moved_both, size, value};
+use pulp::Arch;
 use triad_linalg::larger;
 
 /// Part of the length of the mechanism beyond which an error is no longer carried: it would no longer be small.
@@ -64,77 +67,6 @@ struct Kept<const L: usize, B: Bodies<L>> {
     multipliers: Vec<f64>,
     /// Directions across common vectors, in which their multipliers are expanded.
     across: Vec<[[f64; 3]; 2]>,
-}
-
-/// x + s y.
-#[inline(always)]
-fn moved<const L: usize, B: Bodies<L>>(x: &B::Natural, s: f64, y: &B::Natural) -> B::Natural {
-    let mut sum = *x;
-    for (x, y) in B::lanes_mut(&mut sum).as_flattened_mut().iter_mut().zip(B::lanes(y).as_flattened()) {
-        *x += s * y;
-    }
-    sum
-}
-
-/// The same for positions and velocities.
-fn moved_both<const L: usize, B: Bodies<L>>(
-    x: &[B::Natural; 2],
-    s: f64,
-    y: &[B::Natural; 2],
-) -> [B::Natural; 2] {
-    [0, 1].map(|k| moved::<L, B>(&x[k], s, &y[k]))
-}
-
-/// Value and derivative of a polynomial.
-#[inline(always)]
-fn value<const L: usize, B: Bodies<L>>(coefficients: &[B::Natural], tau: f64) -> [B::Natural; 2] {
-    let nothing = [B::zero(); 2];
-    coefficients
-        .iter()
-        .rev()
-        .fold(nothing, |[x, v], c| [moved::<L, B>(c, tau, &x), moved::<L, B>(&x, tau, &v)])
-}
-
-/// The s-th part of the difference of two series, and its value after h, to be compiled for each set of vector instructions.
-struct Differ<'a, const L: usize, B: Bodies<L>> {
-    of: [&'a [B::Natural]; 2],
-    stride: usize,
-    order: usize,
-    s: f64,
-    h: f64,
-    carried: &'a mut [B::Natural],
-    arrived: &'a mut [[B::Natural; 2]],
-}
-
-impl<const L: usize, B: Bodies<L>> WithSimd for Differ<'_, L, B> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { of: [here, there], stride, order, s, h, carried, arrived } = self;
-        for (b, arrived) in arrived.iter_mut().enumerate() {
-            let range = b * stride..=b * stride + order;
-            let carried = &mut carried[range.clone()];
-            for ((carried, here), there) in carried.iter_mut().zip(&here[range.clone()]).zip(&there[range]) {
-                let difference = moved::<L, B>(here, -1.0, there);
-                *carried = if s < 1.0 { moved::<L, B>(&B::zero(), 1.0 / s, &difference) } else { difference };
-            }
-            *arrived = value::<L, B>(carried, h);
-        }
-    }
-}
-
-/// Size of an error, m: of positions, of directors for a mechanism of this length, and of what their rates make in a time h.
-/// Not a number if any of its components is none.
-fn size<const L: usize, B: Bodies<L>>(error: &[[B::Natural; 2]], h: f64, length: f64) -> f64 {
-    if !error.iter().flatten().all(|x| B::lanes(x).as_flattened().iter().all(|x| x.is_finite())) {
-        return f64::NAN;
-    }
-    let one = |x: &B::Natural| {
-        let (position, directors) = B::lanes(x).split_at(B::DIRECTIONS);
-        larger(largest(position), length * largest(directors))
-    };
-    error.iter().map(|[x, v]| one(x) + h * one(v)).fold(0.0, larger)
 }
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
@@ -337,14 +269,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         let (order, h) = self.step;
         let p = order as f64;
         let stride = series.stride;
-        for b in 0..self.added.len() {
-            let coefficients = &series.q[b * stride..=b * stride + order];
-            let second = (2..=order).rev().fold(B::zero(), |sum, k| {
-                let c = moved::<L, B>(&B::zero(), (k * (k - 1)) as f64, &coefficients[k]);
-                moved::<L, B>(&c, h, &sum)
-            });
-            self.added[b][0] = second;
-        }
+        find_missed::<L, B>(&series.q, stride, (order, h), &mut self.added);
         self.keep(series);
         series.expand_to(2);
         for (b, added) in self.added.iter_mut().enumerate() {
