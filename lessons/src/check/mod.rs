@@ -2,6 +2,7 @@
 
 mod again;
 mod answers;
+pub(crate) mod copied;
 mod diagram;
 mod findings;
 pub(crate) mod guessing;

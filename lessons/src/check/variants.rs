@@ -1,13 +1,13 @@
 //! Trying out the numbers that students will be given.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
+use super::copied::{self, Hand};
 use super::findings::Findings;
 use super::references::{judged, quantity_answer, reference_answer};
 use super::{diagram, measured, predictions};
 use crate::answers::Submission;
 use crate::exercise::{Question, QuestionBody};
-use crate::files::EquationPart;
 use crate::grading::grade;
 use crate::lesson::Lesson;
 use crate::verdict::Mark;
@@ -18,9 +18,6 @@ const GRADED: usize = 200;
 const RUN: usize = 2;
 /// Share of the variants in which a misconception must be recognised as itself.
 const RECOGNISED: f64 = 0.95;
-/// Questions below which one number is most of a lesson, whatever its weight.
-const FEW: usize = 4;
-
 /// How often a misconception was recognised as itself, of the variants that ask its question.
 #[derive(Default)]
 struct Recognised {
@@ -35,7 +32,7 @@ pub(super) fn all_fit(found: &mut Findings) {
     }
     no_strange_file(found);
     let mut recognised: BTreeMap<(String, String), Recognised> = BTreeMap::new();
-    let mut personal = BTreeSet::new();
+    let mut hands = Vec::new();
     for k in 0..GRADED {
         let lesson = match found.lesson.variant(&format!("check-{k}")) {
             Ok(lesson) => lesson,
@@ -59,8 +56,6 @@ pub(super) fn all_fit(found: &mut Findings) {
             );
         }
         count(&lesson, &mut recognised);
-        let of_ones_own = lesson.exercise.questions.iter().filter(|q| is_personal(found.lesson, q));
-        personal.extend(of_ones_own.map(|q| q.id.clone()));
         if k < RUN {
             let mut own = Findings::new(&lesson);
             measured::scene(&mut own);
@@ -73,8 +68,9 @@ pub(super) fn all_fit(found: &mut Findings) {
                 found.faults.push(fault);
             }
         }
+        hands.push(Hand::of(lesson));
     }
-    handed_on(&personal, found);
+    copied::pass_nothing(&hands, found);
     for ((id, name), Recognised { as_itself, of }) in recognised {
         if (as_itself as f64) < RECOGNISED * of as f64 {
             let what = format!("the misconception {name} is recognised in {as_itself} of {of} variants");
@@ -90,40 +86,6 @@ fn no_strange_file(found: &mut Findings) {
     for file in files.filter(|file| !lesson.files.contains_key(*file)) {
         let what = format!("[[scene]] names {file}, which is not there");
         found.add("exercise.toml", 0, what, "correct the name, or leave file away for scene.json");
-    }
-}
-
-/// Whether the right answer of a variant is another one than that of the text.
-fn is_personal(lesson: &Lesson, own: &Question) -> bool {
-    match (&own.body, lesson.question(&own.id).map(|common| &common.body)) {
-        (QuestionBody::Quantity(a), Some(QuestionBody::Quantity(b))) => {
-            !b.tolerance.accepts(&a.reference, &b.reference)
-        }
-        (QuestionBody::Model(a), Some(QuestionBody::Model(b))) => a.reference != b.reference,
-        (QuestionBody::Trajectory(a), Some(QuestionBody::Trajectory(b))) => a.scene != b.scene,
-        // The mass matrix of full bodies is the same at all states.
-        (QuestionBody::Implement(a), Some(QuestionBody::Implement(b))) => {
-            a.scene != b.scene || a.asks.iter().any(|part| *part != EquationPart::Mass)
-        }
-        _ => false,
-    }
-}
-
-/// What everybody answers alike can be handed on, and stands in a public course: with one number more, which somebody has by luck,
-/// it must not be worth as much as it takes to pass.
-fn handed_on(personal: &BTreeSet<String>, found: &mut Findings) {
-    let exercise = &found.lesson.exercise;
-    let common = exercise.at_most(|q| !q.is_judged_by_people() && !personal.contains(&q.id));
-    let numbers = exercise.questions.iter().filter(|q| matches!(q.body, QuestionBody::Quantity(_)));
-    let lucky = numbers.filter(|q| personal.contains(&q.id)).map(|q| q.points).fold(0.0, f64::max);
-    let (all, passes) = (exercise.possible(), exercise.pass_mark);
-    if exercise.questions.len() >= FEW && common + lucky >= passes * all {
-        let what = format!(
-            "answers that are the same for everybody have {common} of {all} points, one number more {lucky}: together they pass"
-        );
-        let remedy =
-            "let more numbers be drawn, draw questions from a pool, or give what is common fewer points";
-        found.add("exercise.toml", 0, what, remedy);
     }
 }
 

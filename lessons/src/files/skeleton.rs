@@ -16,6 +16,7 @@ pub fn files(number: u32, slug: &str) -> BTreeMap<String, String> {
         ("reference/answers.toml", include_str!("../../skeleton/answers.toml")),
         ("wrong/weight-only.toml", include_str!("../../skeleton/weight-only.toml")),
         ("wrong/other-side.toml", include_str!("../../skeleton/other-side.toml")),
+        ("wrong/as-the-ball.toml", include_str!("../../skeleton/as-the-ball.toml")),
         ("figures/sketch.svg", include_str!("../../skeleton/sketch.svg")),
     ]
     .into_iter()
@@ -47,5 +48,21 @@ mod tests {
         assert!(!open.is_empty() && open.iter().all(|p| p.contains("TODO")), "{open:#?}");
         let filled = problems(|text| text.replace("TODO", "Written by the author, with care."));
         assert!(filled.is_empty(), "{filled:#?}");
+    }
+
+    /// Of however few questions a lesson has.
+    #[test]
+    fn a_new_lesson_must_not_be_passed_with_what_others_know() {
+        let changed =
+            |from: &str, to: &str| problems(|text| text.replace("TODO", "With care.").replace(from, to));
+        let coarse = changed("step = 0.05", "step = 2");
+        assert!(coarse.iter().any(|p| p.contains("what is right in the answers of 6 others")), "{coarse:#?}");
+        let heavy = changed("points = 1", "points = 5");
+        assert!(heavy.iter().any(|p| p.contains("the same for everybody have 5 of 9 points;")), "{heavy:#?}");
+        let of_two = changed(
+            "points = 2\nprompt = \"With care. which velocity",
+            "points = 0.1\nprompt = \"With care. which velocity",
+        );
+        assert!(of_two.iter().any(|p| p.contains("one number more 2: together they pass")), "{of_two:#?}");
     }
 }
