@@ -19,6 +19,8 @@ pub mod stream;
 pub mod table;
 pub mod variants;
 
+pub mod dealing;
+
 pub mod metrics;
 
 pub mod grading;

@@ -20,8 +20,8 @@ pub struct Variants {
     pub known: Known,
 }
 
-/// Slug and hash of a lesson, and the seed.
-type Key = (String, String, String);
+/// Slug and hash of a lesson, the hash of the version that deals, and the seed.
+type Key = (String, String, String, String);
 
 #[derive(Debug, Default)]
 struct Kept {
@@ -40,7 +40,8 @@ impl Variants {
             return Ok(Arc::new(lesson.for_nobody()));
         }
         // A lesson that was edited since has another hash.
-        let key = (lesson.slug.clone(), lesson.hash.clone(), seed.to_owned());
+        let key =
+            (lesson.slug.clone(), lesson.hash.clone(), lesson.dealer_hash().to_owned(), seed.to_owned());
         let kept = self.lock().lessons.get(&key).cloned();
         if let Some(lesson) = kept {
             return Ok(lesson);

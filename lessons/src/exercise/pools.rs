@@ -8,10 +8,22 @@ use crate::files::earlier_value;
 use crate::random::SeededRandom;
 
 impl Exercise {
-    /// Leaves of each pool as many questions as it deals, in the author's order: a student's own, and the same for ever.
+    /// Leaves of each pool as many questions as it deals, in the author's order: a student's own, and the same for ever. Where
+    /// an earlier version of the lesson has dealt already, its hand stays, as long as all of it is still there.
     ///
     /// Each question draws a number of its own, so that one that is added later changes as few hands as possible.
-    pub(crate) fn draw_own(&mut self, lesson: &str, drawn_from: &str) {
+    pub(crate) fn draw_own(&mut self, lesson: &str, drawn_from: &str, earlier: Option<&Self>) {
+        let hand = earlier.map(|earlier| earlier.dealt(lesson, drawn_from));
+        let is_here = |id: &String| self.questions.iter().any(|q| q.id == *id && q.pool.is_some());
+        let dealt = match hand.filter(|hand| hand.iter().all(is_here)) {
+            Some(hand) => hand,
+            None => self.dealt(lesson, drawn_from),
+        };
+        self.questions.retain(|question| question.pool.is_none() || dealt.contains(&question.id));
+    }
+
+    /// The questions that the pools deal.
+    fn dealt(&self, lesson: &str, drawn_from: &str) -> BTreeSet<String> {
         let mut dealt: BTreeSet<String> = BTreeSet::new();
         for (pool, count) in &self.draw {
             let luck = |question: &Question| {
@@ -22,7 +34,7 @@ impl Exercise {
             drawn.sort_by(|a, b| a.0.total_cmp(&b.0));
             dealt.extend(drawn.into_iter().take(*count).map(|(_, id)| id));
         }
-        self.questions.retain(|question| question.pool.is_none() || dealt.contains(&question.id));
+        dealt
     }
 
     /// The points that a program gives at most, whichever questions the pools deal. Those of explanations come on top of them.

@@ -1,6 +1,7 @@
 //! A lesson as one text, to be kept beside the verdicts that it gave and to grade again with.
 
 use std::fmt::Write;
+use std::sync::Arc;
 
 use serde_json::{Map, Value, json};
 
@@ -19,8 +20,13 @@ impl Lesson {
             self.files.iter().map(|(path, bytes)| (path.clone(), content(bytes))).collect();
         // Its place in the course and what opens its answers are not in the files, and their fingerprint is that of the folder
         // before it got its place.
-        json!({ "folder": self.folder, "number": self.number, "hash": self.hash, "opens": self.opens, "files": files })
-            .to_string()
+        let mut bundle = json!({
+            "folder": self.folder, "number": self.number, "hash": self.hash, "opens": self.opens, "files": files
+        });
+        if let Some(dealer) = &self.dealer {
+            bundle["dealer"] = dealer.bundle().into();
+        }
+        bundle.to_string()
     }
 
     /// The lesson of a bundle, with the numbers that everybody sees.
@@ -54,7 +60,8 @@ impl Lesson {
             None => OpensFile::default(),
         };
         let lesson = Self::from_files(folder, files)?;
-        Ok(Self { number: number.unwrap_or(lesson.number), hash: hash.to_owned(), opens, ..lesson })
+        let dealer = bundle["dealer"].as_str().map(Self::from_bundle).transpose()?.map(Arc::new);
+        Ok(Self { number: number.unwrap_or(lesson.number), hash: hash.to_owned(), opens, dealer, ..lesson })
     }
 }
 

@@ -43,6 +43,8 @@ pub struct Lesson {
     pub part: Option<String>,
     /// What the numbers were drawn from: the name, or its keyed fingerprint where the class has a secret.
     pub(crate) drawn_from: String,
+    /// The version of the lesson whose numbers students have already, where that is another one.
+    pub(crate) dealer: Option<Arc<Lesson>>,
     pub(crate) sources: QuestionSources,
     pub(crate) files: Arc<Files>,
     pub(crate) figures: BTreeMap<String, String>,
@@ -126,6 +128,7 @@ impl Lesson {
             opens: OpensFile::default(),
             part: None,
             drawn_from: String::new(),
+            dealer: None,
             sources,
             files: Arc::new(files),
             figures,

@@ -148,6 +148,14 @@ impl Course {
             .find(|l| l.slug == name || l.folder == name || l.number.to_string() == name)
     }
 
+    /// The same course with each lesson, taken or not, as it is changed.
+    #[must_use]
+    pub fn with_lessons(self, mut change: impl FnMut(Lesson) -> Lesson) -> Self {
+        let lessons = self.lessons.into_iter().map(&mut change).collect();
+        let others = self.others.into_iter().map(change).collect();
+        Self { lessons, others, ..self }
+    }
+
     /// Files beside the lessons that do not belong there.
     pub(crate) fn stray(&self) -> &[String] {
         &self.stray

@@ -5,6 +5,7 @@ mod bundle;
 mod content;
 mod conventions;
 pub mod course;
+mod dealing;
 mod diagram_view;
 mod notions;
 mod numbering;

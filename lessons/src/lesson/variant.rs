@@ -64,8 +64,15 @@ impl Lesson {
     /// Errors if no draw gives a lesson that can be judged.
     pub fn variant_in(&self, student: &str, secret: &str) -> Result<Self, VariantError> {
         let drawn_from = seed(student, &self.slug, secret);
-        let mut lesson = self.drawn(&drawn_from)?;
-        lesson.exercise.draw_own(&self.slug, &drawn_from);
+        let mut lesson = match self.dealt(&drawn_from) {
+            Some(lesson) => lesson,
+            None => self.drawn(&drawn_from)?,
+        };
+        lesson.exercise.draw_own(
+            &self.slug,
+            &drawn_from,
+            self.dealer.as_ref().map(|dealer| &dealer.exercise),
+        );
         shuffle_options(&mut lesson.exercise, &self.slug, &drawn_from);
         Ok(Self { seed: student.to_owned(), drawn_from, ..lesson })
     }
@@ -81,12 +88,12 @@ impl Lesson {
     #[must_use]
     pub fn for_nobody(&self) -> Self {
         let mut lesson = self.clone();
-        lesson.exercise.draw_own(&self.slug, "");
+        lesson.exercise.draw_own(&self.slug, "", self.dealer.as_ref().map(|dealer| &dealer.exercise));
         lesson
     }
 
     /// The lesson with numbers drawn from a text.
-    fn drawn(&self, seed: &str) -> Result<Self, VariantError> {
+    pub(super) fn drawn(&self, seed: &str) -> Result<Self, VariantError> {
         let files = &self.sources.exercise.parameters;
         let usable = |p: &ParameterFile| {
             p.from < p.to
@@ -129,7 +136,7 @@ impl Lesson {
     }
 
     /// The lesson with these numbers.
-    fn with(&self, parameters: Parameters) -> Result<Self, VariantError> {
+    pub(super) fn with(&self, parameters: Parameters) -> Result<Self, VariantError> {
         let unusable = |what: String| VariantError::Unusable { what };
         let (file, references) = (self.sources.exercise.clone(), self.sources.references.clone());
         let mut lesson = self.clone();
@@ -147,7 +154,7 @@ impl Lesson {
 
 /// Why drawn numbers are not given to a student.
 #[derive(Debug, Error)]
-enum DrawRefused {
+pub(super) enum DrawRefused {
     #[error(transparent)]
     Scene(#[from] SceneError),
     #[error(transparent)]
@@ -161,7 +168,7 @@ enum DrawRefused {
 }
 
 /// Whether the scenario can be started, and not in a singular position.
-fn starts(scene: &serde_json::Value) -> Result<(), DrawRefused> {
+pub(super) fn starts(scene: &serde_json::Value) -> Result<(), DrawRefused> {
     let scene = Scene::from_json(&scene.to_string())?;
     let simulation = Simulation::new(&scene)?;
     let rank = simulation.rank();

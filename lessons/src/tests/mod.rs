@@ -1,6 +1,7 @@
 //! Tests of the course that is built in, and of checks that must complain.
 
 mod claims;
+mod dealing;
 mod explanations;
 mod fairness;
 mod golden_variants;
@@ -272,6 +273,20 @@ fn a_lesson_that_guessing_or_copying_passes_is_found() {
             "kind = \"number\"\npoints = 2",
             "kind = \"number\"\npoints = 12",
             "answers that are the same for everybody have 14 of 22 points",
+        ],
+        // A third, and four tenths by one number.
+        [
+            "exercise.toml",
+            "id = \"tension-bottom\"\nkind = \"number\"\npoints = 3",
+            "id = \"tension-bottom\"\nkind = \"number\"\npoints = 20",
+            "have 4 of 29 points, one number more 20: together they pass",
+        ],
+        ["exercise.toml", "step = 0.01", "step = 0.5", "another student's answers pass for "],
+        [
+            "exercise.toml",
+            "step = 0.01",
+            "step = 0.5",
+            "what is right in the answers of 6 others passes for ",
         ],
         [
             "exercise.toml",

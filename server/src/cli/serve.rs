@@ -22,6 +22,7 @@ use super::stops::Stops;
 use super::terminal::{Outcome, print_line};
 use crate::access::Access;
 use crate::app::{App, REPORTS};
+use crate::dealing;
 use crate::grader::{Grader, LEASE};
 use crate::limits::Limits;
 use crate::live::{self, Which};
@@ -198,7 +199,7 @@ pub(super) fn serve(options: &Serve, course: Course) -> Result<Outcome, Problem>
 /// The server as it is set up, with what lived in it before.
 async fn prepare(
     options: &Serve,
-    course: Course,
+    mut course: Course,
     limits: Limits,
     listener: &TcpListener,
 ) -> Result<App, Problem> {
@@ -211,6 +212,7 @@ async fn prepare(
     let mut lti = None;
     let access = if options.class {
         let class = store.ensure_course(CLASS, &course.title).await?;
+        course = dealing::as_before(&store, course).await?;
         // Where browsers would not bring back what they are given, platforms send nobody: `triad lti tool` says so.
         lti = options.url.as_deref().and_then(|url| Lti::at(url, &class.secret).ok());
         Access::class(&class, options.url.as_ref().is_some_and(|url| url.starts_with("https://")))

@@ -8,6 +8,7 @@ mod bad_input;
 mod below;
 mod changes;
 mod class;
+mod dealing;
 mod described;
 mod document;
 mod explanations;
