@@ -26,7 +26,7 @@ const STUDENTS: usize = 40;
 const DRAWS: usize = 200;
 
 /// Share of the mistakes with a known slip that may get words of another one: one student in twenty who hears something looks in
-/// the wrong place first. Set after measuring, 113 of 2361, which are listed. Most of them are a missing factor or term that another slip
+/// the wrong place first. Set after measuring, 112 of 2361, which are listed. Most of them are a missing factor or term that another slip
 /// leads to, too, with the numbers of the text; no words can tell these apart.
 const MISDIRECTED: f64 = 0.05;
 
