@@ -56,13 +56,11 @@ impl Hand {
 
     /// The share of each question that the right answers of another hand earn in this one.
     fn shares(&self, other: &Self) -> Vec<f64> {
-        let share = |own: &Question| match (own, other.question(&own.id)) {
-            (own, _) if own.is_judged_by_people() => 0.0,
-            (_, None) => 0.0,
-            (own, Some(copy)) if is_same(own, copy) => 1.0,
-            (own, Some(copy)) => self.carried_on(own, copy, other).unwrap_or_default(),
+        let share = |own: &Question| {
+            let copy = other.question(&own.id).filter(|_| !own.is_judged_by_people())?;
+            if is_same(own, copy) { Some(1.0) } else { self.carried_on(own, copy, other) }
         };
-        self.exercise.questions.iter().map(share).collect()
+        self.exercise.questions.iter().map(|own| share(own).unwrap_or_default()).collect()
     }
 
     /// What a wrong number earns as a right step from wrong numbers before it.
