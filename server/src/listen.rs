@@ -89,20 +89,27 @@ async fn accept(
         let held = (place, alive.clone());
         let (app, stopped) = (app.clone(), stopped.clone());
         tokio::spawn(async move {
-            connection(socket, from, app, stopped).await;
+            connection(socket, from, app, SILENCE, stopped).await;
             drop(held);
         });
     }
 }
 
-/// Serves one connection to its end; what it is about to answer when the server stops is answered.
-async fn connection(socket: TcpStream, from: SocketAddr, app: Router, mut stopped: watch::Receiver<()>) {
+/// Serves one connection to its end, or until no request arrives whole for as long as `silence`; what it is about to answer when
+/// the server stops is answered.
+async fn connection(
+    socket: TcpStream,
+    from: SocketAddr,
+    app: Router,
+    silence: Duration,
+    mut stopped: watch::Receiver<()>,
+) {
     let app = app.map_request(move |mut request: Request<Incoming>| {
         request.extensions_mut().insert(ConnectInfo(from));
         request
     });
     let mut protocol = http1::Builder::new();
-    protocol.timer(TokioTimer::new()).header_read_timeout(SILENCE);
+    protocol.timer(TokioTimer::new()).header_read_timeout(silence);
     let served = protocol.serve_connection(io(socket), TowerToHyperService::new(app)).with_upgrades();
     tokio::pin!(served);
     // How a connection ended is the business of the other side.
@@ -173,6 +180,44 @@ impl Drop for Place {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tokio::io::AsyncReadExt;
+
+    /// Ends a test that hangs, and decides nothing else.
+    const HANG: Duration = Duration::from_mins(1);
+
+    /// What a connection is told that says this and no more, until it is closed.
+    async fn told(says: &str) -> String {
+        let listener = TcpListener::bind("127.0.0.1:0").await.expect("a port");
+        let mut socket =
+            TcpStream::connect(listener.local_addr().expect("an address")).await.expect("connects");
+        let (accepted, from) = listener.accept().await.expect("accepts");
+        let (_stop, stopped) = watch::channel(());
+        let app = Router::new().fallback(|| async { "answered" });
+        tokio::spawn(connection(accepted, from, app, Duration::from_millis(50), stopped));
+        socket.write_all(says.as_bytes()).await.expect("writes");
+        let mut answer = String::new();
+        let read = timeout(HANG, socket.read_to_string(&mut answer)).await;
+        read.expect("the connection is closed").expect("text");
+        answer
+    }
+
+    #[tokio::test]
+    async fn who_says_half_a_request_or_nothing_is_not_waited_for() {
+        let whole = "GET / HTTP/1.1\r\nHost: x\r\n\r\n";
+        for half in ["", "GET / HT", "GET / HTTP/1.1\r\nHost: x\r\n"] {
+            assert_eq!(told(half).await, "", "{half:?}");
+            // Nor after a request that was answered.
+            let answer = told(&format!("{whole}{half}")).await;
+            assert!(answer.starts_with("HTTP/1.1 200") && answer.ends_with("answered"), "{answer}");
+        }
+    }
+
+    /// What floods of its streams do was not tried: it is not spoken.
+    #[tokio::test]
+    async fn without_encryption_nobody_speaks_the_second_version_of_http() {
+        let answer = told("PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n").await;
+        assert!(!answer.contains("answered"), "{answer:?}");
+    }
 
     #[test]
     fn one_address_has_half_of_the_places_and_gives_them_back() {

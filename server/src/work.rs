@@ -108,7 +108,14 @@ impl Drop for Waiting<'_> {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
+    use tokio::time::timeout;
+
     use super::*;
+
+    /// Ends a test that hangs, and decides nothing else.
+    const HANG: Duration = Duration::from_mins(1);
 
     #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
     async fn so_many_compute_so_many_wait_and_the_others_are_sent_away() {
@@ -130,9 +137,12 @@ mod tests {
                 })
             })
             .collect();
-        while asked.iter().filter(|task| task.is_finished()).count() < 10 {
-            tokio::task::yield_now().await;
-        }
+        let sent_away = async {
+            while asked.iter().filter(|task| task.is_finished()).count() < 10 {
+                tokio::task::yield_now().await;
+            }
+        };
+        timeout(HANG, sent_away).await.expect("some are sent away");
         (0..=WAITING).for_each(|_| finish.send(()).expect("somebody waits"));
         let mut refused = 0;
         for task in asked {
@@ -166,7 +176,8 @@ mod tests {
         assert!(!wanted.is_still(), "it is told");
         assert_eq!(work.places.available_permits(), 0, "it still computes");
         finish.send(()).expect("it waits");
-        work.run(|_| Ok(())).await.expect("then it is the next one's turn");
+        let next = timeout(HANG, work.run(|_| Ok(()))).await;
+        next.expect("its place is free").expect("then it is the next one's turn");
         assert_eq!(work.places.available_permits(), 1);
     }
 }

@@ -210,6 +210,13 @@ mod tests {
     }
 
     #[test]
+    fn names_of_any_length_are_compared_by_their_first_letters() {
+        let (known, long) = ("a".repeat(64) + "b", "a".repeat(64) + &"c".repeat(1000));
+        assert_eq!(near_matches(&long, [known.as_str(), "aaaa"]), [known.as_str(), "aaaa"]);
+        assert_eq!(strsim::jaro_winkler(&start(&long), &start(&known)), 1.0);
+    }
+
+    #[test]
     fn pointers_move_with_their_document() {
         let refusal =
             Refusal::new(StatusCode::BAD_REQUEST, "x-y", "d", "h").at("/joints/0", "bad").within("/scene");

@@ -174,7 +174,7 @@ pub fn check(method: &str, address: &str, member: Option<&Member>) -> Result<(),
             StatusCode::FORBIDDEN,
             "not-yours",
             format!("a {} may not do this", member.role.name()),
-            format!("it takes a {} of this class: ask one", needed.name()),
+            format!("it takes the role of {} in this class: ask somebody who has it", needed.name()),
         )),
         Some(_) => Ok(()),
     }

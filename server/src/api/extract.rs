@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use axum::body::Bytes;
 use axum::extract::rejection::{BytesRejection, PathRejection, QueryRejection};
 use axum::extract::{FromRequest, FromRequestParts, Path, Query, Request};
 use axum::http::request::Parts;
@@ -29,8 +30,7 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Json<T> {
             essence == "application/json" || essence.ends_with("+json")
         });
         let stated = media.unwrap_or("nothing").to_owned();
-        let body = timeout(BODY_TIME, axum::body::Bytes::from_request(request, state));
-        let bytes = body.await.map_err(|_| late_body())?.map_err(|rejection| unreadable_body(&rejection))?;
+        let bytes = whole_body(request, state, BODY_TIME).await?;
         if !is_json || (stated == "nothing" && !bytes.is_empty()) {
             return Err(Problem::new(
                 StatusCode::UNSUPPORTED_MEDIA_TYPE,
@@ -52,6 +52,14 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Json<T> {
         }
         parse(&bytes).map(Self)
     }
+}
+
+/// The bytes of a body, as soon as all have arrived.
+///
+/// Errors if they do not within `time`, or are too many.
+async fn whole_body<S: Send + Sync>(request: Request, state: &S, time: Duration) -> Result<Bytes, Problem> {
+    let body = timeout(time, Bytes::from_request(request, state));
+    body.await.map_err(|_| late_body())?.map_err(|rejection| unreadable_body(&rejection))
 }
 
 /// Reads JSON; errors point to the place.
@@ -165,5 +173,24 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for QueryParameter
                 "see /api/openapi.json for the parameters of each address",
             )
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::convert::Infallible;
+
+    use axum::body::Body;
+    use futures_util::stream::{StreamExt, iter, pending};
+
+    use super::*;
+
+    #[tokio::test]
+    async fn a_body_that_does_not_end_is_not_waited_for() {
+        let begun = iter([Ok::<_, Infallible>("{\"name\":")]).chain(pending());
+        let request = Request::new(Body::from_stream(begun));
+        let told = timeout(Duration::from_mins(1), whole_body(request, &(), Duration::from_millis(50)));
+        let problem = told.await.expect("it is not waited for").expect_err("it is not whole");
+        assert_eq!((problem.code(), problem.status()), ("late-body", StatusCode::REQUEST_TIMEOUT));
     }
 }

@@ -4,7 +4,7 @@
 use std::convert::Infallible;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 
-use axum::extract::{ConnectInfo, FromRequestParts, MatchedPath, Request, State};
+use axum::extract::{ConnectInfo, DefaultBodyLimit, FromRequestParts, MatchedPath, Request, State};
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header};
 use axum::middleware::Next;
@@ -78,13 +78,22 @@ pub(in crate::api) fn cookie(headers: &HeaderMap, name: &str) -> Option<String> 
 /// What a page of a learning platform sends here: signed tickets and words of the platform hold it instead.
 const FROM_PLATFORMS: [&str; 2] = ["/lti/login", "/lti/launch"];
 
+/// Bytes that anybody who is not of the class may send at a time: names, words, votes, and what a learning platform signs. What
+/// strangers send is held in memory before it is read, for a minute and on as many connections as they like.
+const OF_STRANGERS: usize = 256 << 10;
+
 /// Lets a request pass, with the [`Caller`] found out, or answers why not.
 pub(super) async fn admit(State(app): State<App>, request: Request, next: Next) -> Response {
     let (mut parts, body) = request.into_parts();
     match admitted(&app, &parts).await {
         Ok(caller) => {
+            let is_stranger = app.access.is_class() && caller.0.is_none();
+            let most = app.limits.request_bytes;
+            let most = DefaultBodyLimit::max(if is_stranger { most.min(OF_STRANGERS) } else { most });
             parts.extensions.insert(caller);
-            secured(next.run(Request::from_parts(parts, body)).await)
+            let mut request = Request::from_parts(parts, body);
+            most.apply(&mut request);
+            secured(next.run(request).await)
         }
         Err(problem) => secured(problem.into_response()),
     }

@@ -22,7 +22,6 @@ use std::time::Duration;
 
 use axum::Router;
 use axum::body::Bytes;
-use axum::extract::DefaultBodyLimit;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::middleware::{self, Next};
 use axum::response::{IntoResponse, Response};
@@ -121,7 +120,6 @@ pub fn router(app: App) -> Router {
     }
     let base = Arc::clone(&app.base);
     let document = Bytes::from(described.to_string());
-    let limit = app.limits.request_bytes;
     let server = routes
         .route(
             "/api/openapi.json",
@@ -138,7 +136,6 @@ pub fn router(app: App) -> Router {
         .fallback(page::serve)
         .method_not_allowed_fallback(|| async { page::method_not_allowed() })
         .layer(middleware::from_fn_with_state(app.clone(), forward::where_it_lives))
-        .layer(DefaultBodyLimit::max(limit))
         .layer(middleware::from_fn_with_state(app.clone(), bounds::refuse_large_bodies))
         .layer(middleware::from_fn(uncached_interface))
         .layer(middleware::from_fn_with_state(app.clone(), guard::admit))

@@ -6,6 +6,9 @@ use tempfile::TempDir;
 
 use super::*;
 
+/// Ends a test that hangs, and decides nothing else.
+const HANG: Duration = Duration::from_mins(1);
+
 /// A submission without anything special, at home.
 pub(super) fn new(student: &str) -> HandIn {
     let id = identifier();
@@ -223,6 +226,45 @@ async fn a_program_that_holds_the_file_is_waited_for_and_then_named() {
     held.rollback().await.expect("ends");
     hand_in(&store, &new("ada")).await.expect("keeps");
     assert_eq!(ids(&store).await.len(), 1);
+}
+
+/// Lists of large files do not hold up who hands in, nor the other way round.
+#[tokio::test]
+async fn who_reads_and_who_writes_do_not_wait_for_each_other() {
+    let (_folder, path) = place();
+    let store = open(&path).await;
+    hand_in(&store, &new("ada")).await.expect("keeps");
+    let writing = store.write().await.expect("begins");
+    let read = tokio::time::timeout(HANG, ids(&store)).await;
+    assert_eq!(read.expect("nobody waits for who writes").len(), 1);
+    writing.rollback().await.expect("ends");
+    let reading = store.snapshot().await.expect("reads");
+    hand_in(&store, &new("emmy")).await.expect("nobody waits for who reads");
+    drop(reading);
+    assert_eq!(ids(&store).await.len(), 2);
+}
+
+/// Others who use the machine read no names and no grades, and a path is a path, whatever it looks like.
+#[tokio::test]
+async fn the_file_is_its_owners_alone_and_at_the_path_that_was_given() {
+    for name in ["grades.db", "file:x.db?mode=memory", "?#%41 &", ":memory:"] {
+        let (folder, _) = place();
+        let path = folder.path().join(name);
+        let store = open(&path).await;
+        hand_in(&store, &new("ada")).await.expect("keeps");
+        for entry in fs::read_dir(folder.path()).expect("a folder") {
+            let entry = entry.expect("an entry");
+            assert!(entry.file_name().to_string_lossy().starts_with(name), "{entry:?}");
+            #[cfg(unix)]
+            {
+                use std::os::unix::fs::PermissionsExt;
+                let mode = entry.metadata().expect("a file").permissions().mode();
+                assert_eq!(mode & 0o777, 0o600, "{entry:?}");
+            }
+        }
+        store.close().await;
+        assert_eq!(ids(&open(&path).await).await.len(), 1, "{name}");
+    }
 }
 
 /// One byte anywhere: the file is refused, or the fault is found, or the byte holds nothing.

@@ -131,3 +131,24 @@ async fn votes_and_questions_outlive_a_restart() {
     let result = get(&server, &room.path).await.json()["question"]["result"].clone();
     assert_eq!((&result["counts"], &result["before"]), (&json!([2, 0]), &json!([0, 2])));
 }
+
+/// Nobody takes the seats of all rooms, nor more of one than it has; who leaves gives theirs back.
+#[tokio::test]
+async fn rooms_and_their_seats_are_bounded() {
+    let app = state(Limits { lectures: 2, followers: 3, ..Limits::default() });
+    let server = triad::app(app.clone());
+    let room = Room::open(&server).await;
+    let code = room.path.rsplit('/').next().expect("a code");
+    let lecture = app.lectures.get(code).expect("open");
+    let seats: Vec<_> = (0..3).map(|_| lecture.join().expect("a seat")).collect();
+    let refused = lecture.join().expect_err("none is left");
+    assert_eq!((refused.status().as_u16(), refused.code()), (503, "room-full"));
+    drop(seats);
+    assert!(lecture.join().is_ok());
+    Room::open(&server).await;
+    let begun = post(&server, "/api/v1/sessions", json!({"builtin": "free-body"})).await.json();
+    let third = post(&server, "/api/v1/rooms", json!({"session": begun["id"]})).await;
+    third.problem(503, "too-many-rooms");
+    assert_eq!(room.lead(&server, "DELETE", "", json!({})).await.status, 204);
+    Room::open(&server).await;
+}

@@ -6,6 +6,7 @@
 mod analysis;
 mod bad_input;
 mod below;
+mod bounds;
 mod changes;
 mod class;
 mod dealing;

@@ -6,11 +6,15 @@ use axum::Router;
 use axum::body::Body;
 use axum::http::Request;
 use serde_json::{Value, json};
+use tokio::time::timeout;
 use triad::limits::Limits;
 use triad::live::{self, Which};
 
 use crate::class::class_with;
 use crate::{get, post, send, server, state};
+
+/// Ends a test that hangs, and decides nothing else: longer than a request may keep the engine busy.
+const HANG: Duration = Duration::from_mins(5);
 
 async fn start(server: &Router, body: Value) -> String {
     let reply = post(server, "/api/v1/sessions", body).await;
@@ -58,14 +62,16 @@ async fn time_runs_while_a_session_plays_and_stands_when_it_is_paused() {
     let mut states = app.sessions.get(id).expect("the session").states();
     let state = post(&server, &format!("{path}/play"), json!({"speed": 4.0})).await.json();
     assert_eq!((&state["playing"], &state["speed"]), (&json!(true), &json!(4.0)));
-    states.wait_for(|state| state.time > 0.4).await.expect("time runs");
+    let runs = timeout(HANG, states.wait_for(|state| state.time > 0.4)).await;
+    runs.expect("time runs").expect("it is there");
     let paused = post(&server, &format!("{path}/pause"), "").await.json();
     assert_eq!(paused["playing"], false);
     // The session's thread has come to this request: it does nothing between two of them while it is paused.
     get(&server, &format!("{path}/scene")).await;
     assert_eq!(get(&server, &path).await.json()["time"], paused["time"]);
     post(&server, &format!("{path}/play"), json!({"speed": 1000.0})).await;
-    let end = states.wait_for(|state| state.finished).await.expect("the end comes").time;
+    let end = timeout(HANG, states.wait_for(|state| state.finished)).await.expect("the end comes");
+    let end = end.expect("it is there").time;
     assert_eq!(json!(end), state["duration"]);
 }
 
@@ -171,7 +177,8 @@ async fn a_pause_ends_what_waits_before_it() {
         tokio::time::sleep(Duration::from_millis(300)).await;
         post(&server, &format!("{path}/pause"), "").await
     };
-    let (first, second, third, pause) = tokio::join!(step(), step(), step(), pause);
+    let all = async { tokio::join!(step(), step(), step(), pause) };
+    let (first, second, third, pause) = timeout(HANG, all).await.expect("a pause is answered");
     assert_eq!((first.status.as_u16(), pause.status.as_u16()), (200, 200), "the first ends where it is");
     second.problem(409, "interrupted");
     third.problem(409, "interrupted");
@@ -187,7 +194,8 @@ async fn a_run_that_hardly_moves_can_be_stopped_and_closed() {
     let step = post(&server, &format!("{path}/step"), json!({"seconds": 10})).await;
     step.problem(503, "time-budget-exceeded");
     post(&server, &format!("{path}/play"), "").await;
-    let paused = post(&server, &format!("{path}/pause"), "").await.json();
+    let pause = format!("{path}/pause");
+    let paused = timeout(HANG, post(&server, &pause, "")).await.expect("a pause is answered").json();
     assert_eq!((&paused["playing"], &paused["finished"]), (&json!(false), &json!(false)));
     let delete = Request::delete(&path).body(Body::empty()).expect("a request");
     assert_eq!(send(&server, delete).await.status, 204);

@@ -17,7 +17,6 @@ use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::Json;
 use crate::api::guard::{Caller, Peer, session_token};
 use crate::app::App;
-use crate::blocking;
 use crate::problem::Problem;
 use crate::store::{CLASS, LIFE, Member, Return, names, secret};
 
@@ -221,10 +220,13 @@ async fn come_back(
     let person = if let Some(link) = &back.link {
         app.store.person_of_link(link).await?
     } else {
-        app.access.check_words(address, names::key(&back.name))?;
-        let known = app.store.phrase_of(CLASS, &back.name).await?;
-        let fits =
-            blocking(move || Ok((phrase::fits(&back.words, known.as_ref().map(|k| k.1.as_str())), known)));
+        // Who guesses is remembered by the name that was tried: one that nobody can have is none.
+        let name = if names::is_endless(&back.name) { "" } else { back.name.as_str() };
+        app.access.check_words(address, names::key(name))?;
+        let known = app.store.phrase_of(CLASS, name).await?;
+        let fits = phrase::in_turn(move || {
+            Ok((phrase::fits(&back.words, known.as_ref().map(|k| k.1.as_str())), known))
+        });
         let (fits, known) = fits.await?;
         known.filter(|_| fits).map(|(person, _)| person)
     };
@@ -261,7 +263,7 @@ pub(in crate::api) fn cookie(app: &App, token: &str, seconds: i64) -> Result<Hea
 
 /// Four words and a link, with what is kept of them.
 pub(in crate::api) async fn way_back() -> Result<(String, Return), Problem> {
-    blocking(|| {
+    phrase::in_turn(|| {
         let words = phrase::generate()?;
         let link = secret();
         let phrase = phrase::hash(&words)?;
@@ -288,7 +290,7 @@ pub(in crate::api) fn title_of(typed: &str) -> Result<String, Problem> {
 }
 
 fn text_of(typed: &str, pointer: &str, what: &str) -> Result<String, Problem> {
-    let shown = names::shown(typed);
+    let shown = if names::is_endless(typed) { String::new() } else { names::shown(typed) };
     if !shown.is_empty() && shown.chars().count() <= names::LONGEST {
         return Ok(shown);
     }

@@ -1,0 +1,101 @@
+//! What one caller takes from the others: their work and their rights never, places and time only so much.
+
+use serde_json::json;
+use triad::access::rights::{RIGHTS, Right};
+use triad::limits::Limits;
+use triad::store::Role;
+
+use crate::class::class;
+use crate::{post, state};
+
+/// What is about others, or changes the class, takes somebody who grades at least: by address, whatever stands in the table.
+#[test]
+fn what_is_about_others_belongs_to_those_who_grade() {
+    let of_others =
+        ["assignments", "people", "standings", "glance", "regrades", "invitations", "course", "lti"];
+    let own = ["record", "me", "submissions"];
+    for (method, path, right) in RIGHTS {
+        let part = path.split('/').nth(3).unwrap_or_default();
+        let least = match right {
+            Right::Role(role) => Some(*role),
+            Right::Anyone | Right::Key => None,
+        };
+        if of_others.contains(&part) || path.ends_with("/counts") {
+            assert!(least >= Some(Role::Grader), "{method} {path}: {right:?}");
+        }
+        if own.contains(&part) && *path != "/api/v1/me" {
+            assert!(least >= Some(Role::Student), "{method} {path}: {right:?}");
+        }
+        // Roles and what leaves the gradebook are the owner's, other changes of the class the instructors'.
+        let is_owners = path.ends_with("/role") || path.ends_with("/erase") || path.ends_with("/export");
+        assert!(!(is_owners || part == "invitations") || least == Some(Role::Owner), "{method} {path}");
+        let decides = ["/decisions", "/comments", "/preview", "/canvas"];
+        if *method != "GET" && of_others.contains(&part) && !decides.iter().any(|end| path.ends_with(end)) {
+            assert!(least >= Some(Role::Instructor), "{method} {path}: {right:?}");
+        }
+    }
+}
+
+/// Who hands in without a pause is asked to wait, and others are not.
+#[tokio::test]
+async fn one_student_hands_in_so_often_and_not_more() {
+    let class = class().await;
+    let ((max, _), (ada, _)) = (class.join("Max").await, class.join("Ada").await);
+    let hand_in = async |who: &str| {
+        let path = "/api/v1/lessons/simple-pendulum/submissions";
+        class.ask("POST", path, who, Some(json!({"answers": {}}))).await
+    };
+    let mut kept = 0;
+    let refused = loop {
+        let reply = hand_in(&max).await;
+        if reply.status == 429 || kept > 1000 {
+            break reply;
+        }
+        kept += 1;
+    };
+    refused.problem(429, "too-often");
+    assert!(kept >= 20, "{kept}");
+    assert!(hand_in(&ada).await.status.is_success());
+}
+
+/// Who guesses words with names of megabytes fills no memory: such a name is nobody's, and counts as the empty one.
+#[tokio::test]
+async fn a_name_that_nobody_can_have_is_not_remembered() {
+    let class = class().await;
+    let guess = async |name: String| {
+        let body = json!({"name": name, "words": "acorn acorn acorn acorn"});
+        class.ask("POST", "/api/v1/return", "", Some(body)).await
+    };
+    for k in 0..10 {
+        guess(format!("{k}{}", "x".repeat(100_000))).await.problem(403, "wrong-words");
+    }
+    guess("y".repeat(200_000)).await.problem(429, "too-often");
+    guess("Ada".into()).await.problem(403, "wrong-words");
+}
+
+/// As many are graded at a time as there are places: a class at the bell leaves the processors to others.
+#[tokio::test]
+async fn whoever_is_graded_takes_a_place() {
+    let app = state(Limits::default());
+    let server = triad::app(app.clone());
+    let path = "/api/v1/lessons/simple-pendulum/submissions";
+    let handed = || json!({"student": "ada", "answers": {}});
+    assert!(post(&server, path, handed()).await.status.is_success());
+    let places = std::thread::available_parallelism().map_or(1, usize::from);
+    assert_eq!(app.at_once.available_permits(), places, "each is given back");
+    // Where there are no places any more nobody is graded without one.
+    app.at_once.close();
+    assert_eq!(post(&server, path, handed()).await.status, 500);
+}
+
+/// What strangers send waits in memory until it is whole: of them a class takes little at a time, of its members whole files.
+#[tokio::test]
+async fn strangers_send_little_at_a_time() {
+    let class = class().await;
+    let (ada, _) = class.join("Ada").await;
+    let long = json!({"text": "x".repeat(300 << 10)});
+    let reading = "/api/v1/lessons/simple-pendulum/questions/period/reading";
+    class.ask("POST", reading, "", Some(long.clone())).await.problem(413, "request-too-large");
+    class.ask("POST", "/api/v1/join", "", Some(long.clone())).await.problem(413, "request-too-large");
+    class.ask("POST", reading, &ada, Some(long)).await.problem(422, "invalid-request");
+}
