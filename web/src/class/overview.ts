@@ -8,10 +8,13 @@ import { h, saveFile } from "../core/dom";
 import { dateTime, points } from "../core/format";
 import type { Page } from "../core/router";
 import { parts, t } from "../core/texts";
+import { inviteTo } from "../lecture/invite";
 import { qr } from "../lecture/qr";
 import { empty, problemNotice, skeleton } from "../ui/notice";
 import { showPlatforms } from "./platform";
 
+/** Milliseconds between two looks at who has joined. */
+const PAUSE = 5_000;
 /** Names of the machine for itself. */
 const LOOPBACK = /^(localhost|127\.[\d.]+|\[::1\])$/;
 
@@ -41,19 +44,32 @@ export function classPage(outlet: HTMLElement): Page {
       platforms,
     ),
   );
+  let timer = 0;
+  let shown = 0;
+  /** Whoever joins while somebody looks is in the table a moment later; else the page stays as it is read. */
+  const look = async (): Promise<void> => {
+    clearTimeout(timer);
+    // Nobody looks at a page in the background, and what goes wrong is told by the next thing that is pressed.
+    const people = document.hidden ? undefined : await api.people().catch(() => undefined);
+    if (!table.isConnected) return;
+    if (people && people.length !== shown) void load();
+    else timer = window.setTimeout(() => void look(), PAUSE);
+  };
   const load = async (): Promise<void> => {
     try {
-      paintDoor(door, await api.class());
-      const grades = await api.standings();
+      const [view, people, grades] = await Promise.all([api.class(), api.people(), api.standings()]);
+      shown = people.length;
+      paintDoor(door, view);
       paintTable(table, grades);
       paintLessons(lessons, grades);
+      if (view.join_open) timer = window.setTimeout(() => void look(), PAUSE);
     } catch (error) {
       table.replaceChildren(problemNotice(error, [{ label: t("Try again"), run: () => void load() }]));
     }
   };
   void load();
   void showPlatforms(platforms);
-  return { title: t("Class") };
+  return { title: t("Class"), dispose: () => clearTimeout(timer) };
 }
 
 function paintDoor(root: HTMLElement, view: ClassView): void {
@@ -68,6 +84,11 @@ function paintDoor(root: HTMLElement, view: ClassView): void {
     });
     return button;
   };
+  const large = h("button", { type: "button", class: "button small" }, t("For the whole hall"));
+  large.addEventListener("click", () => {
+    const linked = `/join?code=${view.join_code}`;
+    void inviteTo(t("Join the class"), { typed: "/join", linked, code: view.join_code });
+  });
   root.replaceChildren(
     view.join_open ? qr(address) : h("div", { class: "qr is-closed" }, t("Joining is closed")),
     h(
@@ -95,6 +116,7 @@ function paintDoor(root: HTMLElement, view: ClassView): void {
           ? change(t("Close joining"), { join_open: false })
           : change(t("Open joining"), { join_open: true }),
         change(t("Another code"), { new_code: true }),
+        view.join_open ? large : null,
       ),
     ),
   );
@@ -169,7 +191,7 @@ function askers(grades: GradeTable): HTMLElement[] {
         h(
           "li",
           null,
-          h("a", { href: `/class/${encodeURIComponent(student.id)}` }, student.name),
+          h("a", { href: `/class/${encodeURIComponent(student.id)}#${lesson.slug}` }, student.name),
           `: ${lesson.number} ${lesson.title}`,
         ),
       ),

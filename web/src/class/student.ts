@@ -22,6 +22,7 @@ export function studentPage(outlet: HTMLElement, params: string[]): Page {
       const [submissions, record] = await Promise.all([api.submissionsOf(id), api.recordOf(id)]);
       paint(root, submissions, record, () => void load());
       await setMaths(root);
+      if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
     } catch (error) {
       root.replaceChildren(problemNotice(error, [{ label: t("Try again"), run: () => void load() }]));
     }
@@ -60,10 +61,10 @@ function paint(
       const own = submissions.filter((one) => one.lesson === lesson.slug);
       return h(
         "section",
-        { class: "student-lesson" },
+        { class: "student-lesson", id: lesson.slug },
         h(
           "div",
-          { class: "section-head" },
+          { class: "section-head is-stacked" },
           h("h2", null, `${lesson.number} ${lesson.title}`),
           h("p", null, standing(lesson), " ", change, " ", remark),
         ),

@@ -5,13 +5,20 @@ import { h } from "../core/dom";
 import { parts, t } from "../core/texts";
 import { dialog } from "../ui/dialog";
 
-/** Shows the code in type that is read from the back of a lecture hall, and the address as a picture for phones. */
-export async function invite(room: string): Promise<void> {
+/** Shows the code of a lecture. */
+export const invite = (room: string): Promise<void> =>
+  inviteTo(t("Join this lecture"), { typed: "/room", linked: `/room/${room}`, code: room });
+
+/** Shows a code in type that is read from the back of a lecture hall, and the address with it as a picture for phones. */
+export async function inviteTo(
+  title: string,
+  { typed, linked, code }: { typed: string; linked: string; code: string },
+): Promise<void> {
   const { qr } = await import("./qr");
-  const address = new URL(addressOf(`/room/${room}`), location.href).href;
+  const address = new URL(addressOf(linked), location.href).href;
   const here = /^(localhost|127\.|\[::1\])/.test(location.hostname);
   const box = dialog(
-    t("Join this lecture"),
+    title,
     h(
       "div",
       { class: "invite" },
@@ -23,14 +30,10 @@ export async function invite(room: string): Promise<void> {
           "p",
           null,
           ...parts("Open {address} and type", {
-            address: h(
-              "b",
-              null,
-              new URL(addressOf("/room"), location.href).href.replace(/^https?:\/\//, ""),
-            ),
+            address: h("b", null, new URL(addressOf(typed), location.href).href.replace(/^https?:\/\//, "")),
           }),
         ),
-        h("p", { class: "invite-code" }, room),
+        h("p", { class: "invite-code" }, code),
         here
           ? h(
               "p",

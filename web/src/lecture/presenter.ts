@@ -62,6 +62,9 @@ export interface PresenterHooks {
   replay: (taped: Taped) => void;
 }
 
+/** Whether a room can be opened: in a class those who teach do. */
+const mayLead = (): boolean => !inClass() || teaches();
+
 export class PresenterPanel {
   /** Opens a lecture; it has its place among the controls. */
   readonly button = h(
@@ -72,6 +75,7 @@ export class PresenterPanel {
       "aria-label": t("Lecture: let others follow this run"),
       title: t("Lecture: let others follow this run"),
       onclick: () => void this.open(),
+      hidden: !mayLead(),
     },
     icon("lecture"),
   );
@@ -177,7 +181,7 @@ export class PresenterPanel {
 
   private paint(): void {
     this.root.hidden = !this.lecture;
-    this.button.hidden = this.lecture !== undefined;
+    this.button.hidden = this.lecture !== undefined || !mayLead();
     setText(this.code, this.lecture?.code ?? "");
     if (this.lecture && !this.slides) {
       const slides = new Slides({

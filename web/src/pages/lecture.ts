@@ -13,6 +13,9 @@ import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { mountWorkbench } from "../workbench/workbench";
 
+/** Letters in the code of a class. */
+const CLASS_CODE = 8;
+
 export function joinPage(outlet: HTMLElement): Page {
   const code = h("input", {
     id: "lecture-code",
@@ -35,6 +38,11 @@ export function joinPage(outlet: HTMLElement): Page {
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     const typed = code.value.trim().toUpperCase();
+    // Codes of rooms are shorter: who types that of the class wants to join it.
+    if (typed.length === CLASS_CODE && inClass() && !me().person) {
+      navigate(`/join?code=${encodeURIComponent(typed.toLowerCase())}`);
+      return;
+    }
     api
       .lecture(typed)
       .then(() => navigate(`/room/${encodeURIComponent(typed)}`))

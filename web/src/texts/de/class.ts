@@ -131,6 +131,7 @@ export const classroom = {
   "Students open {address} and type": "Studierende öffnen {address} und tippen",
   "Only this machine reaches that address. For others start the server with --host 0.0.0.0.":
     "Nur dieser Rechner erreicht diese Adresse. Für andere starte den Server mit --host 0.0.0.0.",
+  "For the whole hall": "Für den ganzen Saal",
   "Close joining": "Beitritt schließen",
   "Open joining": "Beitritt öffnen",
   "Another code": "Ein anderer Code",
