@@ -99,3 +99,37 @@ async fn strangers_send_little_at_a_time() {
     class.ask("POST", "/api/v1/join", "", Some(long.clone())).await.problem(413, "request-too-large");
     class.ask("POST", reading, &ada, Some(long)).await.problem(422, "invalid-request");
 }
+
+/// Who may give others new words could come in with them: those of somebody who may more are not given.
+#[tokio::test]
+async fn nobody_comes_in_as_somebody_who_may_more() {
+    let class = class().await;
+    let everybody = class.everybody().await;
+    let of = |wanted: Role| &everybody.iter().find(|(role, _)| *role == Some(wanted)).expect("it is there").1;
+    let people = class.ask("GET", "/api/v1/people", of(Role::Owner), None).await.json();
+    let words = async |role: Role, who: &str| {
+        let person = people.as_array().expect("people").iter().find(|one| one["role"] == role.name());
+        let id = person.expect("it is there")["id"].as_str().expect("an id").to_owned();
+        class.ask("POST", &format!("/api/v1/people/{id}/words"), who, None).await
+    };
+    words(Role::Owner, of(Role::Instructor)).await.problem(403, "not-yours");
+    assert_eq!(words(Role::Student, of(Role::Instructor)).await.status, 201);
+    assert_eq!(words(Role::Instructor, of(Role::Owner)).await.status, 201);
+}
+
+/// The name of a submission is no key: what another student handed in is not there.
+#[tokio::test]
+async fn the_work_of_others_is_not_there() {
+    let class = class().await;
+    let ((ada, _), (eve, _)) = (class.join("Ada").await, class.join("Eve").await);
+    let path = "/api/v1/lessons/simple-pendulum/submissions";
+    let answers = json!({"answers": {"tension-bottom": {"value": "1", "unit": "N"}}});
+    let kept = class.ask("POST", path, &ada, Some(answers)).await.json();
+    let own = format!("/api/v1/submissions/{}", kept["id"].as_str().expect("an id"));
+    for what in ["", "/verdicts"] {
+        let path = format!("{own}{what}");
+        assert_eq!(class.ask("GET", &path, &ada, None).await.status, 200);
+        class.ask("GET", &path, &eve, None).await.problem(404, "unknown-entry");
+    }
+    class.ask("GET", &format!("{own}/files/tension-bottom"), &eve, None).await.problem(404, "unknown-entry");
+}
