@@ -117,8 +117,10 @@ export function standingText(lesson: LessonRecord): HTMLElement {
 
 /** What was allowed, decided, said and regraded. */
 export function remarksList(lesson: LessonRecord): HTMLElement {
-  const line = (when: string, who: string, text: string): HTMLElement =>
-    h("li", null, h("time", { datetime: when }, dateTime(when)), ` ${who}: ${text}`);
+  const line = (when: string, who: string, text: string): { when: number; item: HTMLElement } => ({
+    when: Date.parse(when),
+    item: h("li", null, h("time", { datetime: when }, dateTime(when)), ` ${who}: ${text}`),
+  });
   const { extension } = lesson;
   const allowed = extension
     ? [
@@ -154,7 +156,9 @@ export function remarksList(lesson: LessonRecord): HTMLElement {
       ),
     ),
   ].filter((item) => item !== null);
-  return h("ul", { class: "remarks", hidden: items.length === 0 }, ...items);
+  // In the order in which it was said: what was decided after a regrade stands after it.
+  items.sort((a, b) => a.when - b.when);
+  return h("ul", { class: "remarks", hidden: items.length === 0 }, ...items.map(({ item }) => item));
 }
 
 /** What a remark decides, before its words. */

@@ -21,7 +21,7 @@ const CHOICES: Record<string, () => string> = {
 const ASKED_EVERY_MS = 300;
 
 export function regradeSection(lesson: AssignedLesson): HTMLElement {
-  const seen = h("div", { "aria-live": "polite" });
+  const seen = h("div", { class: "regrade-seen", "aria-live": "polite" });
   const before = h("div");
   const look = h("button", { type: "button", class: "button" }, t("Grade again and look"));
   const failed = (error: unknown): void => seen.replaceChildren(problemNotice(error));
