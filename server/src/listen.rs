@@ -43,6 +43,18 @@ pub async fn serve<S: Future<Output = ()>, D: Future<Output = ()>, E: Future<Out
     draining: impl FnOnce() -> D,
     ending: impl FnOnce() -> E,
 ) {
+    serve_and_part(listener, app, stop, draining, ending, FAREWELL).await;
+}
+
+/// The same, with so long a farewell.
+async fn serve_and_part<S: Future<Output = ()>, D: Future<Output = ()>, E: Future<Output = ()>>(
+    listener: TcpListener,
+    app: Router,
+    stop: impl Fn() -> S,
+    draining: impl FnOnce() -> D,
+    ending: impl FnOnce() -> E,
+    farewell: Duration,
+) {
     let places = Arc::new(Places::new());
     let (stopping, stopped) = watch::channel(());
     // Each connection holds a sender: nothing more can come when the last one has ended.
@@ -61,7 +73,7 @@ pub async fn serve<S: Future<Output = ()>, D: Future<Output = ()>, E: Future<Out
     stopping.send_replace(());
     tokio::select! {
         _ = ended.recv() => {}
-        () = sleep(FAREWELL) => {}
+        () = sleep(farewell) => {}
         () = stop() => {}
     }
 }
@@ -181,6 +193,7 @@ impl Drop for Place {
 mod tests {
     use super::*;
     use tokio::io::AsyncReadExt;
+    use tokio::sync::Notify;
 
     /// Ends a test that hangs, and decides nothing else.
     const HANG: Duration = Duration::from_mins(1);
@@ -210,6 +223,48 @@ mod tests {
             let answer = told(&format!("{whole}{half}")).await;
             assert!(answer.starts_with("HTTP/1.1 200") && answer.ends_with("answered"), "{answer}");
         }
+    }
+
+    /// A server that is stopped while something hangs, with so long a farewell; whether it is asked again.
+    async fn stopped_while_it_answers(farewell: Duration, again: bool) {
+        let listener = TcpListener::bind("127.0.0.1:0").await.expect("a port");
+        let mut socket =
+            TcpStream::connect(listener.local_addr().expect("an address")).await.expect("connects");
+        let (asked, mut begun) = mpsc::channel::<()>(1);
+        let hangs = move || {
+            let asked = asked.clone();
+            async move {
+                asked.send(()).await.expect("somebody listens");
+                std::future::pending::<()>().await;
+            }
+        };
+        let stops = Arc::new(Notify::new());
+        let next = {
+            let stops = Arc::clone(&stops);
+            move || Arc::clone(&stops).notified_owned()
+        };
+        let app = Router::new().fallback(hangs);
+        let none = || std::future::ready(());
+        let serving = tokio::spawn(serve_and_part(listener, app, next, none, none, farewell));
+        socket.write_all(b"GET / HTTP/1.1\r\nHost: x\r\n\r\n").await.expect("writes");
+        begun.recv().await.expect("it is answered");
+        stops.notify_one();
+        let ends = async {
+            while !serving.is_finished() {
+                if again {
+                    stops.notify_one();
+                }
+                sleep(Duration::from_millis(1)).await;
+            }
+        };
+        timeout(HANG, ends).await.expect("it ends");
+    }
+
+    #[tokio::test]
+    async fn what_hangs_holds_up_a_server_that_is_stopped_for_its_farewell_alone() {
+        stopped_while_it_answers(Duration::from_millis(50), false).await;
+        // Asked again it waits for nobody.
+        stopped_while_it_answers(Duration::from_hours(1), true).await;
     }
 
     /// What floods of its streams do was not tried: it is not spoken.

@@ -8,6 +8,7 @@ use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::sync::OnceLock;
+use std::sync::mpsc::channel;
 use std::time::{Duration, Instant, SystemTime};
 
 /// Ends a test that hangs, and decides nothing else: longer than anything here takes on a slow and busy machine.
@@ -66,12 +67,28 @@ fn build(profile: &Path) {
 
 /// Runs the program to its end.
 pub fn run(arguments: &[&str]) -> Output {
-    Command::new(triad()).args(arguments).stdin(Stdio::null()).output().unwrap()
+    output(Command::new(triad()).args(arguments))
+}
+
+/// What a command says that ends by itself; one that does not is ended, and the test with it.
+pub fn output(command: &mut Command) -> Output {
+    let command = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let child = command.spawn().unwrap();
+    let id = child.id().to_string();
+    let (tell, told) = channel();
+    std::thread::spawn(move || tell.send(child.wait_with_output()));
+    told.recv_timeout(HANG).map_or_else(
+        |_| {
+            let _ = Command::new("kill").args(["-KILL", &id]).status();
+            panic!("{command:?} does not end")
+        },
+        Result::unwrap,
+    )
 }
 
 /// Runs the program with `--json`; returns its exit code and what it printed.
 pub fn run_json(arguments: &[&str]) -> (i32, Value) {
-    let output = Command::new(triad()).arg("--json").args(arguments).stdin(Stdio::null()).output().unwrap();
+    let output = output(Command::new(triad()).arg("--json").args(arguments));
     let text = String::from_utf8_lossy(&output.stdout);
     let json = serde_json::from_str(&text).unwrap_or_else(|error| {
         panic!("triad --json {arguments:?}: {error}\n{text}\n{}", String::from_utf8_lossy(&output.stderr))
@@ -146,7 +163,7 @@ impl Server {
         let at = line.split("http://").nth(1).and_then(|rest| rest.split(['/', ' ']).next());
         let address = at.unwrap_or_else(|| panic!("the server said {line:?}")).to_owned();
         // Whatever else it says must not fill the pipe.
-        let (said, heard) = std::sync::mpsc::channel();
+        let (said, heard) = channel();
         std::thread::spawn(move || {
             for line in lines.lines().map_while(Result::ok) {
                 // Nobody need listen.

@@ -260,3 +260,45 @@ fn a_disk_that_is_full_or_read_only_is_named_and_loses_nothing() {
     assert_eq!(listed(&server), kept + 1);
     server.stop();
 }
+
+#[test]
+fn two_servers_on_one_file_keep_what_each_acknowledged() {
+    const EACH: u32 = 40;
+    let folder = tempfile::tempdir().unwrap();
+    let servers = [Server::start(folder.path()), Server::start(folder.path())];
+    let known = Mutex::new(Known::default());
+    std::thread::scope(|scope| {
+        for number in 0..CLIENTS {
+            // Each student by way of both servers.
+            let (known, servers) = (&known, &servers);
+            scope.spawn(move || {
+                for value in 0..EACH / CLIENTS {
+                    let sent = Sent {
+                        student: format!("student {}", number / 2),
+                        key: format!("{number}-{value}"),
+                        value,
+                    };
+                    let id = sent.hand_in(&servers[number as usize % 2].address).unwrap();
+                    known.lock().unwrap().acknowledged.insert(sent.key, id);
+                }
+            });
+        }
+    });
+    let listed = |server: &Server| {
+        let all = server.get("/api/v1/submissions?limit=1000").json();
+        all.as_array()
+            .unwrap()
+            .iter()
+            .map(|one| one["id"].as_str().unwrap().to_owned())
+            .collect::<BTreeSet<_>>()
+    };
+    let acknowledged: BTreeSet<String> = known.lock().unwrap().acknowledged.values().cloned().collect();
+    assert_eq!(acknowledged.len(), EACH as usize);
+    for server in &servers {
+        assert_eq!(listed(server), acknowledged, "each server knows of both's");
+    }
+    servers.into_iter().for_each(Server::stop);
+    let database = folder.path().join("grades.db");
+    assert_eq!(run_json(&["grades", "--check", "--database", text(&database)]), (0, json!([])));
+    assert_eq!(run_json(&["regrade", "--check", "--database", text(&database)]).1["same"], EACH);
+}

@@ -32,6 +32,8 @@ const ROUNDS: usize = 4;
 const PAUSE: Duration = Duration::from_millis(350);
 /// After the last session, where it is measured: what runs held has gone back to the system.
 const GIVEN_BACK: Duration = Duration::from_secs(40);
+/// A server that is told to stop is gone by then, whatever hangs.
+const STOPS: Duration = Duration::from_secs(20);
 /// Bytes that one run keeps of what it has passed, and all of them together (`server/src/limits.rs`), but for the newest block
 /// of each.
 const ONE_KEEPS: usize = 17 << 20;
@@ -194,6 +196,8 @@ fn a_class_plays_and_watches_while_it_asks_and_hands_in() {
     let open = hanging(&server, &last.path);
     let began = Instant::now();
     server.stop();
-    println!("  stopped with {} that hang: {:.1} s", open.len(), began.elapsed().as_secs_f64());
+    let took = began.elapsed();
+    println!("  stopped with {} that hang: {:.1} s", open.len(), took.as_secs_f64());
+    assert!(took < STOPS, "{took:?}");
     last.leave();
 }

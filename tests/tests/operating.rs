@@ -12,14 +12,13 @@ use std::time::Instant;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 use triad_tests::postgres::Postgres;
-use triad_tests::program::{Ending, HANG, Server, admin, assert_problem, log_lines, run_json, triad};
+use triad_tests::program::{Ending, HANG, Server, admin, assert_problem, log_lines, output, run_json, triad};
 use triad_tests::root;
 
 /// `triad` with these words, in an environment of its own.
 fn with_environment(words: &[&str], environment: &[(&str, &str)]) -> Output {
     let mut command = Command::new(triad());
-    command.args(words).env_clear().envs(environment.iter().copied()).stdin(Stdio::null());
-    command.output().unwrap()
+    output(command.args(words).env_clear().envs(environment.iter().copied()))
 }
 
 /// The settings that `triad config` tells.
@@ -275,7 +274,10 @@ fn at_an_address_of_ipv6_and_below_a_path_pages_and_streams_pass() {
         ),
     ] {
         let all = [&["serve", "--port", "0", "--database", book], words].concat();
-        assert_problem(&run_json(&all).1, code, "");
+        let told = run_json(&all).1;
+        assert_problem(&told, code, "");
+        let hint = told["hint"].as_str().unwrap();
+        assert!(code != "open-to-all" || (hint.contains("--class") && hint.contains("--open")), "{hint}");
     }
 }
 

@@ -239,4 +239,14 @@ mod tests {
         assert_eq!((0..20).filter(|_| tried(here, "ada")).count(), 10);
         assert!(tried(here, "emmy") && tried(there, "ada"));
     }
+
+    #[test]
+    fn codes_and_links_can_be_tried_by_a_hall_and_not_by_who_tries_them_all() {
+        let home = Access::home(false, []);
+        let tried = |from: [u8; 4]| home.check_tries(IpAddr::from(from)).is_ok();
+        let most = TRIES.0 as usize;
+        let passed = (0..10 * most).filter(|_| tried([10, 0, 0, 1])).count();
+        assert!((most..2 * most).contains(&passed), "{passed}");
+        assert!(tried([10, 0, 0, 2]), "others are not concerned");
+    }
 }

@@ -1,11 +1,14 @@
 //! What one caller takes from the others: their work and their rights never, places and time only so much.
 
-use serde_json::json;
-use triad::access::rights::{RIGHTS, Right};
-use triad::limits::Limits;
-use triad::store::Role;
+use std::sync::Arc;
 
-use crate::class::class;
+use serde_json::{Value, json};
+use triad::access::rights::{RIGHTS, Right};
+use triad::app::App;
+use triad::limits::Limits;
+use triad::store::{Role, Store};
+
+use crate::class::{class, class_of};
 use crate::{post, state};
 
 /// What is about others, or changes the class, takes somebody who grades at least: by address, whatever stands in the table.
@@ -132,4 +135,33 @@ async fn the_work_of_others_is_not_there() {
         class.ask("GET", &path, &eve, None).await.problem(404, "unknown-entry");
     }
     class.ask("GET", &format!("{own}/files/tension-bottom"), &eve, None).await.problem(404, "unknown-entry");
+}
+
+/// Whoever reads the file of a gradebook comes in as nobody: of what opens an account there are hashes in it.
+#[tokio::test]
+async fn what_opens_an_account_is_not_in_the_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("grades.db");
+    let store = Store::open(&path).await.expect("opens");
+    let class = class_of(App { store: Arc::new(store), ..state(Limits::default()) }).await;
+    let (owner, _) = class.enter("/api/v1/setup", json!({"token": class.setup, "name": "Prof"})).await;
+    let (ada, told) = class.join("Ada Lovelace").await;
+    let invited =
+        class.ask("POST", "/api/v1/invitations", &owner, Some(json!({"role": "grader"}))).await.json();
+    let text = |value: &Value| value.as_str().expect("text").to_owned();
+    let token = |cookie: &str| cookie.split_once('=').expect("a cookie").1.to_owned();
+    class.app.store.close().await;
+    let bytes = std::fs::read(&path).expect("reads");
+    let holds = |text: &str| bytes.windows(text.len()).any(|part| part == text.as_bytes());
+    assert!(holds("Ada Lovelace"), "it is the file");
+    for secret in [
+        token(&owner),
+        token(&ada),
+        text(&told["words"]),
+        text(&told["link"]),
+        text(&invited["token"]),
+        class.setup,
+    ] {
+        assert!(!holds(&secret), "{secret} is in the file");
+    }
 }

@@ -152,3 +152,33 @@ async fn rooms_and_their_seats_are_bounded() {
     assert_eq!(room.lead(&server, "DELETE", "", json!({})).await.status, 204);
     Room::open(&server).await;
 }
+
+/// A room's code lets people follow; only its key leads, and nothing that is almost the key.
+#[tokio::test]
+async fn only_who_has_the_key_of_a_room_leads() {
+    let server = server();
+    let room = Room::open(&server).await;
+    let code = room.path.rsplit('/').next().expect("a code").to_owned();
+    let other = Room::open(&server).await;
+    let almost =
+        [room.key[..room.key.len() - 1].to_owned(), format!("{}0", room.key), room.key.to_uppercase() + "x"];
+    for key in [String::new(), code, other.key].into_iter().chain(almost) {
+        let thief = Room { path: room.path.clone(), key };
+        for (method, what, body) in [
+            ("DELETE", "", json!({})),
+            ("PUT", "/view", json!({"view": {"joint": "pin"}})),
+            ("GET", "/desk", Value::Null),
+            ("PUT", "/question", json!({"text": "Which way?", "choices": ["up", "down"]})),
+            ("DELETE", "/question", json!({})),
+            ("POST", "/reveal", json!({})),
+            ("POST", "/second-vote", json!({})),
+            ("PUT", "/remarks/1", json!({"shown": true})),
+            ("DELETE", "/remarks/1", json!({})),
+            ("DELETE", "/hands", json!({})),
+        ] {
+            let refused = thief.lead(&server, method, what, body).await;
+            refused.problem(403, "not-the-presenter");
+        }
+    }
+    assert_eq!(room.lead(&server, "GET", "/desk", Value::Null).await.status, 200);
+}
