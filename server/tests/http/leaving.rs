@@ -89,11 +89,14 @@ async fn a_session_whose_caller_leaves_while_it_is_made_takes_no_place() {
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn a_table_ends_as_its_caller_leaves_and_gives_its_place_to_others() {
     let (server, address) = patient().await;
-    let scene = get(&server, "/api/v1/scenes/simple-pendulum").await.json();
+    let scene = get(&server, "/api/v1/scenes/spatial-slider-crank").await.json();
     let table = |until: f64, every: f64| json!({"scene": scene, "until": until, "every": every});
+    // The longest that a scene may last: one second more is refused, and computes nothing.
+    let longest = table(1e6, 1e3);
+    let refused = post(&server, "/api/v1/analyses/table", table(1e6 + 1.0, 1e3)).await;
+    refused.problem(422, "out-of-range");
     let places = std::thread::available_parallelism().map_or(1, usize::from);
-    let callers: Vec<_> =
-        (0..places).map(|_| ask(address, "/api/v1/analyses/table", &table(1e9, 1e5))).collect();
+    let callers: Vec<_> = (0..places).map(|_| ask(address, "/api/v1/analyses/table", &longest)).collect();
     drop(callers);
     let others = post(&server, "/api/v1/analyses/table", table(0.1, 0.1));
     let reply = timeout(PATIENCE, others).await.expect("it is its turn");
