@@ -12,11 +12,20 @@ use crate::problem::Problem;
 /// processors the runs become slower, and answers do not wait for them.
 #[cfg(target_os = "linux")]
 const LESS: i32 = 10;
+/// The least that a thread can count.
+#[cfg(target_os = "linux")]
+const MOST: i32 = 19;
 
 /// Lets those who answer go before this thread and those that it starts, where the system can. It stays so.
 pub fn step_back() {
     #[cfg(target_os = "linux")]
-    rustix::process::setpriority_process(Some(rustix::thread::gettid()), LESS).unwrap_or_default();
+    {
+        use rustix::process::{getpid, getpriority_process, setpriority_process};
+        // Those who answer count as the program was started.
+        let others = getpriority_process(Some(getpid())).unwrap_or_default();
+        let less = (others + LESS).clamp(LESS, MOST);
+        setpriority_process(Some(rustix::thread::gettid()), less).unwrap_or_default();
+    }
 }
 
 /// Runs work on a thread of its own that steps back: those of the runtime serve others afterwards, and could not step forward.
