@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use axum::http::StatusCode;
 use triad_engine::EngineError;
+use triad_engine::analysis::AnalysisError;
 use triad_engine::catalogue;
 use triad_engine::scene::{self, Scene};
 use triad_lab::paper::PaperError;
@@ -27,6 +28,7 @@ impl From<UrdfError> for Problem {
     fn from(error: UrdfError) -> Self {
         let detail = error.to_string();
         let (status, code, line, hint) = match &error {
+            UrdfError::NoLongerWanted => return AnalysisError::NoLongerWanted.into(),
             UrdfError::TooLong { .. } => {
                 (StatusCode::PAYLOAD_TOO_LARGE, "urdf-too-long", None, "import a smaller robot".to_owned())
             }

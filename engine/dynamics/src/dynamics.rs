@@ -2,6 +2,8 @@
 
 mod blocks;
 
+pub use blocks::products_within;
+
 pub mod elimination;
 
 pub mod series;

@@ -22,6 +22,30 @@ pub trait Projectable {
     fn correct_velocities(&mut self) -> f64;
 }
 
+/// A state that is corrected as long as that is wanted: then a projection ends with its next correction, which is none.
+pub struct AsWanted<'a, P> {
+    /// The state.
+    pub on: P,
+    /// Whether somebody waits for it.
+    pub still: &'a dyn Fn() -> bool,
+}
+
+impl<P: Projectable> Projectable for AsWanted<'_, P> {
+    fn linearize(&mut self) {
+        if (self.still)() {
+            self.on.linearize();
+        }
+    }
+
+    fn correct_positions(&mut self) -> f64 {
+        if (self.still)() { self.on.correct_positions() } else { f64::NAN }
+    }
+
+    fn correct_velocities(&mut self) -> f64 {
+        if (self.still)() { self.on.correct_velocities() } else { f64::NAN }
+    }
+}
+
 /// How a projection ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
@@ -139,6 +163,19 @@ mod tests {
         let (same, projected) = root(&StopRule { linearize: Linearize::Never, ..RULE });
         assert!(projected.has_converged() && projected.corrections > 10 && same.linearized == 0);
         assert_eq!(root(&StopRule { linearize: Linearize::Once, ..RULE }).0.linearized, 1);
+    }
+
+    #[test]
+    fn it_stops_where_nobody_waits_for_it() {
+        let asked = std::cell::Cell::new(0);
+        let still = || {
+            asked.set(asked.get() + 1);
+            asked.get() < 4
+        };
+        let mut on = AsWanted { on: Root { x: 1.0, slope: 2.5, linearized: 0 }, still: &still };
+        let projected = project_positions(&mut on, &RULE, 1.0);
+        assert_eq!((projected.ending, projected.corrections, on.on.linearized), (Ending::Diverged, 2, 2));
+        assert!(on.on.x < 2.0, "it is left as it is");
     }
 
     #[test]

@@ -16,7 +16,7 @@ mod outputs;
 mod queries;
 mod restart;
 mod snapshot;
-mod start;
+pub(crate) mod start;
 mod summary;
 
 pub use errors::{ErrorEstimate, ReactionErrors};

@@ -90,6 +90,21 @@ pub struct BlockCholesky {
     pivot_products: Option<Vec<f64>>,
 }
 
+/// Whether a factorization of so many blocks, joined by `edges`, takes at most `most` products of blocks. It is found out without
+/// doing more than that.
+pub fn products_within(count: usize, edges: impl Iterator<Item = (usize, usize)>, most: usize) -> bool {
+    let mut graph = vec![BTreeSet::new(); count];
+    let mut joined = 0;
+    for (i, j) in edges.filter(|(i, j)| i != j) {
+        joined += usize::from(graph[i].insert(j));
+        graph[j].insert(i);
+        if joined > most {
+            return false;
+        }
+    }
+    minimum_degree(graph, most).0.len() == count
+}
+
 impl BlockCholesky {
     /// Fixes the order and the fill for blocks of the given sizes, joined by `edges`.
     pub fn new(sizes: &[usize], edges: impl Iterator<Item = (usize, usize)>) -> Self {
@@ -101,7 +116,7 @@ impl BlockCholesky {
                 graph[j].insert(i);
             }
         }
-        let (order, fill) = minimum_degree(graph);
+        let (order, fill) = minimum_degree(graph, usize::MAX);
         let mut rank = vec![0; count];
         for (place, &block) in order.iter().enumerate() {
             rank[block] = place;

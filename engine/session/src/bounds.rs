@@ -1,9 +1,14 @@
 //! How large a scene may be where somebody else's machine runs it.
 
 use http::StatusCode;
+use triad_engine::analysis::check::products_within;
 use triad_engine::scene::Scene;
 
 use crate::refusal::Refusal;
+
+/// Products of blocks that one factorization of a scene's constraints may take: 40 MB, and some tenths of a second. Of joints that stand in
+/// rows, trees and ladders it takes some thousand; of 180 joints on one body, or 500 between any bodies, more.
+const MOST_PRODUCTS: usize = 1_000_000;
 
 /// The largest scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,7 +20,7 @@ pub struct SceneBounds {
 }
 
 impl SceneBounds {
-    /// Refuses a scene that is larger, before anything is built from it; `taker` is who runs it, as in “this server takes”.
+    /// Refuses a scene that is larger, before anything of its size is built from it; `taker` is who runs it, as in “this server takes”.
     pub fn hold(self, scene: &Scene, taker: &str) -> Result<(), Refusal> {
         let connections = scene.joints.len() + scene.drivers.len() + scene.loads.len();
         // The longest of the lists that are bounded together is the place to mend.
@@ -36,6 +41,18 @@ impl SceneBounds {
                 )
                 .at(format!("/{list}"), detail));
             }
+        }
+        if !products_within(scene, MOST_PRODUCTS) {
+            let detail = format!(
+                "too many joints meet at the same bodies, by way of others too, for what {taker} takes"
+            );
+            return Err(Refusal::new(
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "scene-too-large",
+                detail.clone(),
+                "leave out joints that hold again what others hold, or run it on the command line: triad run SCENE",
+            )
+            .at("/joints", detail));
         }
         Ok(())
     }

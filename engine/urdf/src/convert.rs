@@ -2,7 +2,7 @@
 //!
 //! A link's frame is its body's frame. Links without mass that are fixed to another become part of it.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use nalgebra::{Isometry3, Vector3};
 use triad_scene::{
@@ -10,7 +10,7 @@ use triad_scene::{
 };
 
 use crate::follow::{StartOf, starts};
-use crate::omissions::{OmittedItem, UrdfError};
+use crate::omissions::{OmittedItem, UrdfError, go_on};
 use crate::read::{Geometry, JointType, Link, Robot, UrdfJoint, Visual};
 use crate::side_car::{Root, SideCar};
 
@@ -40,8 +40,9 @@ pub(super) fn scene(
     robot: &Robot,
     side_car: &SideCar,
     left_out: &mut Vec<OmittedItem>,
+    still: &dyn Fn() -> bool,
 ) -> Result<Scene, UrdfError> {
-    check_names(robot, side_car)?;
+    check_names(robot, side_car, still)?;
     let placed = place(robot, side_car)?;
     let mut scene =
         Scene::new(slug(&robot.name)).title(robot.name.as_str()).description("Imported from a URDF.");
@@ -55,25 +56,29 @@ pub(super) fn scene(
         add_body(&mut scene, link, left_out);
     }
     for link in &placed {
+        go_on(still)?;
         add_shapes(&mut scene, link, left_out);
         add_joint(&mut scene, link, &placed, left_out);
     }
     add_gears(&mut scene, robot, left_out);
     for joint in &side_car.joints {
+        go_on(still)?;
         scene.joints.push(closing(joint, &placed));
     }
     Ok(scene)
 }
 
-fn check_names(robot: &Robot, side_car: &SideCar) -> Result<(), UrdfError> {
-    let joints: Vec<String> = robot.joints.iter().map(|joint| joint.name.clone()).collect();
-    let mut links: Vec<String> = robot.links.iter().map(|link| link.name.clone()).collect();
-    links.push(GROUND.to_owned());
-    let known = |what: &'static str, names: &[String], name: &String| {
+fn check_names(robot: &Robot, side_car: &SideCar, still: &dyn Fn() -> bool) -> Result<(), UrdfError> {
+    let joints: BTreeSet<&str> = robot.joints.iter().map(|joint| joint.name.as_str()).collect();
+    let mut links: BTreeSet<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
+    links.insert(GROUND);
+    let known = |what: &'static str, names: &BTreeSet<&str>, name: &str| {
+        go_on(still)?;
         if names.contains(name) || name.is_empty() {
             return Ok(());
         }
-        Err(UrdfError::Unknown { what, name: name.clone(), known: names.to_vec() })
+        let known = names.iter().map(|name| (*name).to_owned()).collect();
+        Err(UrdfError::Unknown { what, name: name.to_owned(), known })
     };
     for name in side_car.positions.keys().chain(side_car.velocities.keys()) {
         known("joint", &joints, name)?;

@@ -97,7 +97,7 @@ mod tests {
     use std::fmt::Write;
 
     use super::*;
-    use crate::{MAX_LINKS, SideCar, import};
+    use crate::{MAX_LINKS, SideCar, import, import_if};
 
     /// A row of links, each on the one before, whose joints follow the one that `leader` says.
     fn robot(links: usize, leader: impl Fn(usize) -> Option<usize>) -> String {
@@ -130,6 +130,26 @@ mod tests {
         let error = import(&robot(5, |k| Some(if k == 3 { 2 } else { k + 1 })), &SideCar::default());
         let UrdfError::Wrong { line, what, .. } = error.expect_err("a ring") else { panic!("another error") };
         assert!((3..=4).contains(&line) && what.contains("follows itself by way of"), "{line}: {what}");
+    }
+
+    #[test]
+    fn a_robot_is_read_on_as_long_as_somebody_waits() {
+        let (text, asked) = (robot(200, |_| None), std::cell::Cell::new(0));
+        let leaves_after = |most: usize| {
+            asked.set(0);
+            import_if(&text, &SideCar::default(), &|| {
+                asked.set(asked.get() + 1);
+                asked.get() <= most
+            })
+        };
+        assert!(leaves_after(usize::MAX).is_ok());
+        let all = asked.get();
+        // While it is read, and while it is made.
+        for most in [0, 1, 150, all - 1] {
+            assert!(matches!(leaves_after(most), Err(UrdfError::NoLongerWanted)), "{most} of {all}");
+            assert_eq!(asked.get(), most + 1);
+        }
+        assert!(all >= 3 * 200, "{all}");
     }
 
     #[test]

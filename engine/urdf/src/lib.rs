@@ -53,12 +53,21 @@ pub struct Imported {
 /// # Ok::<(), triad_urdf::UrdfError>(())
 /// ```
 pub fn import(text: &str, side_car: &SideCar) -> Result<Imported, UrdfError> {
+    import_if(text, side_car, &|| true)
+}
+
+/// As [`import`], as long as it is wanted.
+///
+/// # Errors
+///
+/// As [`import`], and [`UrdfError::NoLongerWanted`].
+pub fn import_if(text: &str, side_car: &SideCar, still: &dyn Fn() -> bool) -> Result<Imported, UrdfError> {
     if text.len() > MAX_TEXT {
         return Err(UrdfError::TooLong { bytes: text.len() });
     }
     let mut left_out = Vec::new();
-    let robot = read::robot(text, &mut left_out)?;
-    let scene = convert::scene(&robot, side_car, &mut left_out)?;
+    let robot = read::robot(text, &mut left_out, still)?;
+    let scene = convert::scene(&robot, side_car, &mut left_out, still)?;
     left_out.sort_by_key(|item| item.line);
     Ok(Imported { scene, left_out })
 }

@@ -3,6 +3,11 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+/// Goes on as long as somebody waits.
+pub(crate) fn go_on(still: &dyn Fn() -> bool) -> Result<(), UrdfError> {
+    if still() { Ok(()) } else { Err(UrdfError::NoLongerWanted) }
+}
+
 /// Bytes of a URDF.
 pub const MAX_TEXT: usize = 4 << 20;
 /// Links of a robot.
@@ -47,6 +52,9 @@ pub enum UrdfError {
         /// What to try.
         hint: &'static str,
     },
+    /// Nobody waits for the scene any more.
+    #[error("nobody waits for the scene any more")]
+    NoLongerWanted,
     /// The side-car names something that is not there.
     #[error("the side-car names {what} \"{name}\", which the URDF does not have")]
     Unknown {

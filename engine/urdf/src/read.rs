@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 use roxmltree::{Document, Node, ParsingOptions};
 
-use crate::omissions::{MAX_LINKS, OmittedItem, UrdfError};
+use crate::omissions::{MAX_LINKS, OmittedItem, UrdfError, go_on};
 
 /// XML nodes that are read.
 const MAX_NODES: u32 = 400_000;
@@ -90,7 +90,12 @@ impl Report<'_> {
     }
 }
 
-pub(super) fn robot(text: &str, left_out: &mut Vec<OmittedItem>) -> Result<Robot, UrdfError> {
+pub(super) fn robot(
+    text: &str,
+    left_out: &mut Vec<OmittedItem>,
+    still: &dyn Fn() -> bool,
+) -> Result<Robot, UrdfError> {
+    go_on(still)?;
     bound_attributes(text)?;
     let options = ParsingOptions { nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options)
@@ -104,6 +109,7 @@ pub(super) fn robot(text: &str, left_out: &mut Vec<OmittedItem>) -> Result<Robot
     let mut robot =
         Robot { name: attribute(root, "name")?.to_owned(), links: Vec::new(), joints: Vec::new() };
     for node in root.children().filter(Node::is_element) {
+        go_on(still)?;
         match node.tag_name().name() {
             "link" => robot.links.push(link(node, &mut report)?),
             "joint" => robot.joints.push(joint(node, &mut report)?),

@@ -91,6 +91,29 @@ async fn joints_drivers_and_loads_are_bounded_together() {
 }
 
 #[tokio::test]
+async fn joints_that_meet_at_one_body_are_bounded_before_their_products_are() {
+    let server = server();
+    let joint = |k: usize| {
+        let point = [0.001 * k as f64, (k % 7) as f64, 1.0];
+        json!({"name": format!("j{k}"), "type": "spherical", "body_i": "ground", "body_j": "plate", "point": point})
+    };
+    let plate = |joints: usize| {
+        let inertia = json!({"principal": [1, 1, 1]});
+        json!({"name": "plate", "bodies": [{"name": "plate", "mass": 1, "inertia": inertia, "position": [0, 0, 0]}],
+            "joints": (0..joints).map(joint).collect::<Vec<_>>()})
+    };
+    // Their factorization would take 53 GB.
+    let problem = post(&server, "/api/v1/check", plate(2000)).await.problem(422, "scene-too-large");
+    assert_eq!(problem["errors"][0]["pointer"], "#/joints");
+    let problem = post(&server, "/api/v1/sessions", json!({"scene": plate(2000)})).await;
+    assert_eq!(problem.problem(422, "scene-too-large")["errors"][0]["pointer"], "#/scene/joints");
+    let problem = post(&server, "/api/v1/analyses/assembly", json!({"scene": plate(400)})).await;
+    problem.problem(422, "scene-too-large");
+    let checked = post(&server, "/api/v1/check", plate(60)).await;
+    assert_eq!((checked.status.as_u16(), &checked.json()["rank"]), (200, &json!(12)));
+}
+
+#[tokio::test]
 async fn a_million_bodies_and_a_hundred_megabytes_are_refused_by_their_size() {
     let server = triad::app(state(Limits { request_bytes: 100_000, ..Limits::default() }));
     let million = r#"{"name":"b","mass":1},"#.repeat(20_000);

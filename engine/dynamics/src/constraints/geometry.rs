@@ -11,7 +11,7 @@ use crate::system::System;
 use crate::system::index::{IncidenceId, SolverRow};
 use nalgebra::DMatrix;
 use triad_linalg::random::Random;
-use triad_linalg::{independent_rows, left_null_space};
+use triad_linalg::{independent_rows_if, left_null_space};
 
 /// Relative pivot below which rounding could hide that later rows depend on others: it leaves ε over this pivot in theirs. Then the
 /// decision is taken anew with pivots in the order of their size.
@@ -57,12 +57,20 @@ impl Geometry {
 
     /// Takes the rows at the positions of a state.
     pub fn place(&mut self, state: &State) {
+        self.place_if(state, &|| true);
+    }
+
+    /// As [`Geometry::place`], as long as that is wanted.
+    fn place_if(&mut self, state: &State, still: &dyn Fn() -> bool) {
+        if !still() {
+            return;
+        }
         let Self { system, elimination, .. } = self;
         self.unclear = None;
         self.dependent = elimination.dependent_rows(system, state, DEPENDENT);
         if elimination.least_pivot(DEPENDENT) < UNCLEAR {
             let rows = unit_rows(system, elimination);
-            let kept = independent_rows(&rows, DEPENDENT.sqrt());
+            let kept = independent_rows_if(&rows, DEPENDENT.sqrt(), still);
             let depends = |row: &SolverRow| kept.binary_search(&row.index()).is_err();
             self.dependent = (0..system.solver_rows).map(SolverRow).filter(depends).collect();
             elimination.factor_without(system, &self.dependent);
@@ -80,19 +88,19 @@ impl Geometry {
         6 * self.system.bodies.len() + self.dependent.len() - self.system.solver_rows
     }
 
-    /// The rank near the consistent position q, and at it; the state is left elsewhere.
-    pub fn analyze(&mut self, state: &mut State, q: &[f64]) -> Rank {
+    /// The rank near the consistent position q, and at it, as long as that is wanted; the state is left elsewhere.
+    pub fn analyze(&mut self, state: &mut State, q: &[f64], still: &dyn Fn() -> bool) -> Rank {
         state.set_positions(&self.system, q);
-        self.place(state);
+        self.place_if(state, still);
         let lost = self.dependent.len();
         // Rows that are independent somewhere are so nearly everywhere.
-        if lost > 0 {
+        if lost > 0 && still() {
             let Self { system, elimination, .. } = self;
             let (mut q, mut q_dot) = (q.to_vec(), vec![0.0; q.len()]);
             let length = system.length;
             let mut on = ProjectableState { system, state, elimination, q: &mut q, q_dot: &mut q_dot };
             move_away(&mut on, length);
-            self.place(state);
+            self.place_if(state, still);
         }
         let rows = self.system.solver_rows;
         Rank { rank: rows - self.dependent.len(), at_start: rows - lost, dependent: self.dependent.clone() }

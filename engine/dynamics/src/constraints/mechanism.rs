@@ -6,7 +6,7 @@ use crate::constraints::violation;
 use crate::dynamics::elimination::{Accelerations, Elimination, ProjectableState};
 use crate::model::Model;
 use crate::newton::rules::{self, CONSISTENT};
-use crate::newton::{project_positions, project_velocities};
+use crate::newton::{AsWanted, project_positions, project_velocities};
 use crate::ode::OdeSystem;
 use crate::scene::ConstraintMethod;
 use crate::state::{self, State};
@@ -104,8 +104,21 @@ impl Mechanism {
     ///
     /// Those of [`Mechanism::assemble_at`].
     pub fn assemble(&mut self, y: &mut [f64]) -> Result<Vec<String>, ConstraintError> {
+        self.assemble_if(y, &|| true)
+    }
+
+    /// As [`Mechanism::assemble`], as long as that is wanted; what is said of it afterwards means nothing.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::assemble_at`].
+    pub fn assemble_if(
+        &mut self,
+        y: &mut [f64],
+        still: &dyn Fn() -> bool,
+    ) -> Result<Vec<String>, ConstraintError> {
         self.state.set_revolutions(self.system.start_angles());
-        self.assemble_at(0.0, y)
+        self.assemble_at_if(0.0, y, still)
     }
 
     /// Moves a state at time t onto the constraints, whole turns of angles counted from those that are kept.
@@ -115,12 +128,21 @@ impl Mechanism {
     /// [`ConstraintError`]: joints that cannot be closed, a start that is too far from a closed one, or a motion that the joints do not
     /// allow; each names the joint or driver.
     pub fn assemble_at(&mut self, t: f64, y: &mut [f64]) -> Result<Vec<String>, ConstraintError> {
+        self.assemble_at_if(t, y, &|| true)
+    }
+
+    fn assemble_at_if(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        still: &dyn Fn() -> bool,
+    ) -> Result<Vec<String>, ConstraintError> {
         let given = y.to_vec();
         self.set_state(t, y);
         let was_redundant = self.elimination.is_redundant();
         self.elimination.set_redundant(true);
-        let positions = self.assemble_positions(t, &given, y)?;
-        let velocities = self.assemble_velocities(t, &given, y)?;
+        let positions = self.assemble_positions(t, &given, y, still)?;
+        let velocities = self.assemble_velocities(t, &given, y, still)?;
         self.elimination.set_redundant(was_redundant);
         Ok(positions.into_iter().chain(velocities).collect())
     }
@@ -131,11 +153,13 @@ impl Mechanism {
         t: f64,
         given: &[f64],
         y: &mut [f64],
+        still: &dyn Fn() -> bool,
     ) -> Result<Option<String>, ConstraintError> {
         let (n, length) = (self.system.coordinates, self.system.length);
         let violated = self.state.position_violation(&self.system);
         if violated > CONSISTENT * length + rounding(&given[..n]) {
-            project_positions(&mut self.projectable(y), &rules::ASSEMBLY_POSITIONS, length);
+            let mut on = AsWanted { on: self.projectable(y), still };
+            project_positions(&mut on, &rules::ASSEMBLY_POSITIONS, length);
         }
         let left = violation::measure(&self.system, &self.state).relative;
         let moved = largest_difference(&given[..n], y);
@@ -165,13 +189,15 @@ impl Mechanism {
         t: f64,
         given: &[f64],
         y: &mut [f64],
+        still: &dyn Fn() -> bool,
     ) -> Result<Option<String>, ConstraintError> {
         let (n, length) = (self.system.coordinates, self.system.length);
         self.state.set_velocities(&self.system, &y[n..]);
         let rate = self.state.velocity_violation(&self.system);
         if rate > CONSISTENT * length + rounding(&given[n..]) {
             let rate = violation::rates(&self.system, &self.state).into_iter().fold(0.0, f64::max);
-            project_velocities(&mut self.projectable(y), &rules::ASSEMBLY_VELOCITIES, length);
+            let mut on = AsWanted { on: self.projectable(y), still };
+            project_velocities(&mut on, &rules::ASSEMBLY_VELOCITIES, length);
             self.check_motion(t, MAX_RATE_LEFT * rate + RATE_ROUNDING * state::fastest(&self.system, y))?;
         }
         if rate <= 1e-9 * length {

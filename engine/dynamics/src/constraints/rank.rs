@@ -17,11 +17,16 @@ pub use crate::constraints::geometry::Rank;
 
 /// Finds the rank near the consistent position q; `state` is left elsewhere.
 pub fn analyze(system: &System, state: &mut State, q: &[f64]) -> Rank {
+    analyze_if(system, state, q, &|| true)
+}
+
+/// As [`analyze`], as long as that is wanted; what is said of it afterwards means nothing.
+pub fn analyze_if(system: &System, state: &mut State, q: &[f64], still: &dyn Fn() -> bool) -> Rank {
     if is_tree(system) {
         let rank = system.solver_rows;
         return Rank { rank, at_start: rank, dependent: Vec::new() };
     }
-    Geometry::new(system).analyze(state, q)
+    Geometry::new(system).analyze(state, q, still)
 }
 
 /// Whether the joints are those of a tree and nothing else: their rows are independent whatever the position.

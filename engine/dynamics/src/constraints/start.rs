@@ -15,9 +15,14 @@ const LARGE_PART: f64 = 0.1;
 
 /// A checked model as a mechanism, and its start y = (q, q̇) as the author gives it by bodies and joints. Where joints give it,
 /// loops are closed as far as that can be done with what is given held; what remains open is left to the assembly.
-pub fn mechanism(mut model: Model) -> (Mechanism, Vec<f64>) {
+pub fn mechanism(model: Model) -> (Mechanism, Vec<f64>) {
+    mechanism_if(model, &|| true)
+}
+
+/// As [`mechanism`], as long as that is wanted: otherwise somewhere on the way.
+pub fn mechanism_if(mut model: Model, still: &dyn Fn() -> bool) -> (Mechanism, Vec<f64>) {
     if !model.starts.is_empty() {
-        close_positions(&mut model);
+        close_positions(&mut model, still);
         fit_velocities(&mut model);
         let lost = lost_rates(&model);
         model.notes.extend(lost);
@@ -58,7 +63,7 @@ fn held(model: &Model, of: impl Fn(&ModelStart, [f64; 2]) -> [Option<Curve>; 2])
 }
 
 /// Moves the bodies onto the joints, with the given angles and displacements held.
-fn close_positions(model: &mut Model) {
+fn close_positions(model: &mut Model, still: &dyn Fn() -> bool) {
     let constant = |value: Option<f64>| value.map(Curve::constant);
     let held = held(model, |start, _| [constant(start.angle), constant(start.slide)]);
     let (mut mechanism, mut y) = Mechanism::from_model(held);
@@ -67,7 +72,7 @@ fn close_positions(model: &mut Model) {
     if mechanism.state.position_violation(&mechanism.system) <= f64::EPSILON * length {
         return;
     }
-    let (_, _, left) = rough::close(&mut mechanism, &mut y, &|| true);
+    let (_, _, left) = rough::close(&mut mechanism, &mut y, still);
     // A comparison that is false for NaN as well.
     if left <= CLOSED * length {
         take_over(model, &mechanism, &y, false);

@@ -1,7 +1,7 @@
 //! The layout of S, which never changes: which products of incidences make up its blocks — eq. (7.6).
 
 use crate::system::System;
-use triad_linalg::BlockCholesky;
+use triad_linalg::{BlockCholesky, block_cholesky};
 
 /// A product A_p D_b⁻¹ A_qᵀ of two incidences of one body, which is added to a block of S.
 #[derive(Clone, Copy, Debug)]
@@ -29,27 +29,38 @@ impl SchurLayout {
     /// Of a system: the blocks are its joints, and two of them meet where a body has both.
     pub fn new(system: &System) -> Self {
         let sizes: Vec<usize> = system.constraints.iter().map(|c| c.solver.len()).collect();
-        // A joint without rows (in the plane) shares no block.
-        let with_rows: Vec<Vec<usize>> = system
-            .incidences_of_body
-            .iter()
-            .map(|list| list.iter().copied().filter(|&i| system.incidences[i].rows > 0).collect())
-            .collect();
-        let pairs = || {
-            with_rows.iter().enumerate().flat_map(|(body, incidences)| {
-                incidences
-                    .iter()
-                    .enumerate()
-                    .flat_map(move |(k, &p)| incidences[k..].iter().map(move |&q| (body, p, q)))
-            })
-        };
+        let with_rows = with_rows(system);
         let joint = |incidence: usize| system.incidences[incidence].constraint.index();
-        let factor = BlockCholesky::new(&sizes, pairs().map(|(_, p, q)| (joint(p), joint(q))));
-        let products = pairs().map(|(body, p, q)| {
+        let edges = pairs(&with_rows).map(|(_, p, q)| (joint(p), joint(q)));
+        let factor = BlockCholesky::new(&sizes, edges);
+        let products = pairs(&with_rows).map(|(body, p, q)| {
             let slot = factor.slot(joint(p), joint(q));
             let (left, right) = if slot.transposed { (q, p) } else { (p, q) };
             BlockProduct { body, offset: slot.offset, left, right }
         });
         Self { products: products.collect(), factor }
     }
+}
+
+/// The incidences of each body whose joints have rows: one without (in the plane) shares no block.
+fn with_rows(system: &System) -> Vec<Vec<usize>> {
+    let rows = |list: &Vec<usize>| list.iter().copied().filter(|&i| system.incidences[i].rows > 0).collect();
+    system.incidences_of_body.iter().map(rows).collect()
+}
+
+/// Pairs of incidences of a body, with the body.
+fn pairs(with_rows: &[Vec<usize>]) -> impl Iterator<Item = (usize, usize, usize)> {
+    with_rows.iter().enumerate().flat_map(|(body, incidences)| {
+        let all = incidences.iter().enumerate();
+        all.flat_map(move |(k, &p)| incidences[k..].iter().map(move |&q| (body, p, q)))
+    })
+}
+
+/// Whether a factorization of S takes at most `most` products of blocks: with joints all over, or very many on one body, it takes
+/// more than any machine has.
+pub fn products_within(system: &System, most: usize) -> bool {
+    let joint = |incidence: usize| system.incidences[incidence].constraint.index();
+    let edges = with_rows(system);
+    let edges = pairs(&edges).map(|(_, p, q)| (joint(p), joint(q)));
+    block_cholesky::products_within(system.constraints.len(), edges, most)
 }

@@ -1,7 +1,8 @@
 //! `check`: what a scene amounts to, before it is run.
 
+use super::{AnalysisError, Wanted};
 use crate::error::EngineError;
-use crate::run::Simulation;
+use crate::run::{Simulation, start};
 use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -88,7 +89,34 @@ pub fn dependent_sets(system: &System, rank: &Rank) -> Vec<DependentSet> {
 /// # Ok::<(), EngineError>(())
 /// ```
 pub fn check(scene: &Scene) -> Result<CheckReport, EngineError> {
-    let simulation = Simulation::from_model(Model::new(scene)?)?;
+    Ok(report(scene, &Simulation::from_model(Model::new(scene)?)?))
+}
+
+/// As [`check`], as long as it is wanted.
+///
+/// # Errors
+///
+/// As [`check`], and [`AnalysisError::NoLongerWanted`].
+pub fn check_if(scene: &Scene, wanted: &Wanted) -> Result<CheckReport, AnalysisError> {
+    let still = || wanted.is_still();
+    let model = Model::new(scene).map_err(EngineError::from)?;
+    let assembled = start::assemble(model, &still);
+    // What ended early says nothing of the scene.
+    wanted.check()?;
+    let (mut mechanism, begin, mut notes) = assembled.map_err(EngineError::from)?;
+    let rank = start::analyze_rank(&mut mechanism, &begin, &mut notes, &still);
+    wanted.check()?;
+    let rank = rank.map_err(EngineError::from)?;
+    Ok(report(scene, &Simulation::assembled(mechanism, begin, rank, notes)?))
+}
+
+/// Whether a factorization of the constraints of a scene takes at most `most` products of blocks; also of one that cannot be.
+pub fn products_within(scene: &Scene, most: usize) -> bool {
+    Model::new(scene)
+        .map_or(true, |model| triad_dynamics::dynamics::products_within(&System::new(model), most))
+}
+
+fn report(scene: &Scene, simulation: &Simulation) -> CheckReport {
     let system = simulation.system();
     let rank = simulation.rank();
     let mut redundant: Vec<RedundantRows> = Vec::new();
@@ -105,7 +133,7 @@ pub fn check(scene: &Scene) -> Result<CheckReport, EngineError> {
     let rows = system.rigid_rows + system.equations;
     // f = n − n_RB − rank A, and n − n_RB is six for each body — eq. (8.1).
     let degrees_of_freedom = 6 * system.bodies.len() - rank.rank;
-    Ok(CheckReport {
+    CheckReport {
         name: scene.name.clone(),
         bodies: system.bodies.len(),
         coordinates: system.coordinates,
@@ -114,5 +142,5 @@ pub fn check(scene: &Scene) -> Result<CheckReport, EngineError> {
         degrees_of_freedom,
         redundant,
         notes: simulation.notes().to_vec(),
-    })
+    }
 }

@@ -64,8 +64,18 @@ impl Simulation {
     ///
     /// [`EngineError::Constraint`] and [`EngineError::CustomLoad`].
     pub fn from_model(model: Model) -> Result<Self, EngineError> {
-        let (mut mechanism, start, mut notes) = assemble(model)?;
-        let rank = analyze_rank(&mut mechanism, &start, &mut notes)?;
+        let (mut mechanism, start, mut notes) = assemble(model, &|| true)?;
+        let rank = analyze_rank(&mut mechanism, &start, &mut notes, &|| true)?;
+        Self::assembled(mechanism, start, rank, notes)
+    }
+
+    /// Starts what was assembled.
+    pub(crate) fn assembled(
+        mut mechanism: Mechanism,
+        start: Vec<f64>,
+        rank: Rank,
+        mut notes: Vec<String>,
+    ) -> Result<Self, EngineError> {
         mechanism.set_state(0.0, &start);
         let state = &mechanism.state;
         let (current, start_energy) = (CachedState::new(0.0, &start, state), state.energy(&mechanism.system));
@@ -111,23 +121,28 @@ impl Simulation {
     }
 }
 
-/// A mechanism, its start (q, q̇) moved onto the constraints, and what was found or corrected.
-fn assemble(model: Model) -> Result<(Mechanism, Vec<f64>, Vec<String>), ConstraintError> {
-    let (mut mechanism, mut start) = start::mechanism(model);
+/// A mechanism, its start (q, q̇) moved onto the constraints, and what was found or corrected, as long as that is wanted.
+pub(crate) fn assemble(
+    model: Model,
+    still: &dyn Fn() -> bool,
+) -> Result<(Mechanism, Vec<f64>, Vec<String>), ConstraintError> {
+    let (mut mechanism, mut start) = start::mechanism_if(model, still);
     let mut notes = mechanism.system.model.notes.clone();
-    notes.extend(mechanism.assemble(&mut start)?);
+    notes.extend(mechanism.assemble_if(&mut start, still)?);
     Ok((mechanism, start, notes))
 }
 
-/// Finds the rank of a mechanism near its start, and hands the dependent rows to its elimination; counters are reset.
-fn analyze_rank(
+/// Finds the rank of a mechanism near its start, as long as that is wanted, and hands the dependent rows to its elimination; counters are
+/// reset.
+pub(crate) fn analyze_rank(
     mechanism: &mut Mechanism,
     start: &[f64],
     notes: &mut Vec<String>,
+    still: &dyn Fn() -> bool,
 ) -> Result<Rank, ConstraintError> {
     let Mechanism { system, state, elimination, .. } = mechanism;
     let q = &start[..system.coordinates];
-    let rank = rank::analyze(system, state, q);
+    let rank = rank::analyze_if(system, state, q, still);
     rank::check_masses(system, state, elimination, q)?;
     if rank.at_start < rank.rank {
         notes.push(format!(

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use nalgebra::{Matrix2, Vector3};
+use triad_engine::analysis::check::{check, check_if};
 use triad_engine::analysis::{
     AnalysisError, ModesAbout, Wanted, assemble, assemble_if, equilibrium, equilibrium_if, kinematics,
     kinematics_if, modes, modes_if,
@@ -44,6 +45,7 @@ fn what_nobody_waits_for_any_more_ends_before_its_next_step() {
     let mut open = driven.clone();
     open.bodies[0].position[1] += 0.05;
     assert!(assemble_if(&open, &[], &wanted).unwrap().iterations > 0);
+    assert_eq!(check_if(&open, &wanted).unwrap(), check(&open).unwrap());
     wanted.no_longer();
     let ended = [
         equilibrium_if(&pendulum, &wanted).unwrap_err(),
@@ -51,6 +53,7 @@ fn what_nobody_waits_for_any_more_ends_before_its_next_step() {
         modes_if(&pendulum, ModesAbout::Steady, &wanted).unwrap_err(),
         kinematics_if(&driven, Convention::default(), &wanted).unwrap_err(),
         assemble_if(&open, &[], &wanted).unwrap_err(),
+        check_if(&open, &wanted).unwrap_err(),
     ];
     assert!(ended.iter().all(|error| *error == AnalysisError::NoLongerWanted), "{ended:?}");
 }

@@ -5,12 +5,15 @@ pub(in crate::api) mod import;
 pub(in crate::api) mod motion;
 pub(in crate::api) mod table;
 
+use std::sync::Arc;
+
 use axum::Json as Answer;
 use axum::extract::State;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
-use triad_engine::analysis::check::CheckReport;
+use triad_engine::analysis::Wanted;
+use triad_engine::analysis::check::{CheckReport, check_if};
 use triad_engine::catalogue;
 use triad_engine::scene::{self, Scene};
 use utoipa_axum::router::OpenApiRouter;
@@ -73,12 +76,13 @@ async fn show(
     (status = 413, description = "The text is too long", body = ref(PROBLEM)),
     (status = 422, description = "The scene was refused", body = ref(PROBLEM))))]
 async fn check(State(app): State<App>, Json(value): Json<Value>) -> Result<Answer<CheckReport>, Problem> {
-    blocking(move || {
+    let work = Arc::clone(&app.work);
+    let job = move |wanted: &Wanted| {
         let scene = Scene::from_json(&value.to_string())?;
         session::bounded(&scene, &app.limits)?;
-        Ok(Answer(triad_engine::analysis::check::check(&scene)?))
-    })
-    .await
+        Ok(Answer(check_if(&scene, wanted)?))
+    };
+    work.run(job).await
 }
 
 /// A JSON Schema.
