@@ -103,8 +103,9 @@ fn trajectory(found: &mut Findings, id: &str, task: &Trajectory) -> Result<(), T
     let motion = ReferenceMotion::new(task)?;
     let (best, worst) =
         (task.bands.first().map_or(0.0, |b| b.error), task.bands.last().map_or(0.0, |b| b.error));
-    if 10.0 * motion.error > best {
-        let what = format!("its best band is {best:e}, its reference is off by up to {:e}", motion.error);
+    let error = motion.error(task)?;
+    if 10.0 * error > best {
+        let what = format!("its best band is {best:e}, its reference is off by up to {error:e}");
         found.question(id, what, "a band is at least ten times the error of the reference");
     }
     let thin = reference_csv(task, 400)?;

@@ -3,7 +3,7 @@
 //! Many students are asked the same, hand in again what they handed in before, and are graded by two versions of a lesson: what
 //! depends on nothing else is computed once. Whatever is found here is what would be computed, to the last bit.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -12,11 +12,14 @@ use triad_engine::analysis::Wanted;
 use triad_engine::scene::Scene;
 
 use crate::answers::Answer;
-use crate::exercise::{QuestionBody, Trajectory};
+use crate::exercise::{ModelTask, QuestionBody, Trajectory};
 use crate::files::MeasuredFile;
 use crate::scenario::measure::MeasureError;
+use crate::tasks::authors_model::AuthorsModel;
+use crate::tasks::harmonic::Waves;
 use crate::tasks::trajectory::ReferenceMotion;
-use crate::verdict::feedback::Judgement;
+use crate::tasks::wrong_motions::{self, Shown};
+use crate::verdict::feedback::{Judgement, MotionFinding};
 
 /// References that are kept: some of each lesson of a course.
 const REFERENCES: usize = 64;
@@ -24,6 +27,10 @@ const REFERENCES: usize = 64;
 const RUNS: usize = 256;
 /// Motions, of some 64 kB each: one for each number that may be drawn.
 const MOTIONS: usize = 96;
+/// Motions that mistakes lead to, of some 6 kB each: five for each number that may be drawn.
+const SHOWN: usize = 512;
+/// Harmonic motions at the times of a table, of 4 MB: most students write a row at the same times.
+const WAVES: usize = 2;
 /// Judgements: the two versions of a lesson ask one after the other, in some threads. An answer may have a megabyte.
 const JUDGEMENTS: usize = 16;
 
@@ -33,7 +40,11 @@ pub struct Known {
     pub(super) references: Kept<(Scene, MeasuredFile), Result<Vec<f64>, MeasureError>>,
     pub(super) runs: Kept<Run, Result<Made, MeasureError>>,
     pub(super) motions: Kept<Trajectory, Result<Arc<ReferenceMotion>, MeasureError>>,
+    pub(super) models: Kept<ModelTask, Result<Arc<AuthorsModel>, MeasureError>>,
     pub(super) judgements: Kept<Asked, Judgement>,
+    findings: Kept<(Looked, Vec<Vec<f64>>), MotionFinding>,
+    shown: Kept<Looked, Shown>,
+    waves: Kept<Vec<f64>, Arc<Waves>>,
 }
 
 impl Default for Known {
@@ -42,7 +53,11 @@ impl Default for Known {
             references: Kept::new(REFERENCES),
             runs: Kept::new(RUNS),
             motions: Kept::new(MOTIONS),
+            models: Kept::new(REFERENCES),
             judgements: Kept::new(JUDGEMENTS),
+            findings: Kept::new(JUDGEMENTS),
+            shown: Kept::new(SHOWN),
+            waves: Kept::new(WAVES),
         }
     }
 }
@@ -52,22 +67,61 @@ impl Known {
     pub fn computed(&self) -> Computed {
         let of = |made: &AtomicUsize| made.load(Ordering::Relaxed);
         Computed {
-            references: of(&self.references.made) + of(&self.motions.made),
+            references: of(&self.references.made) + of(&self.motions.made) + of(&self.models.made),
             runs: of(&self.runs.made),
             judgements: of(&self.judgements.made),
+            mistaken: of(&self.shown.made),
+            waves: of(&self.waves.made),
         }
+    }
+
+    /// What a scene shows of what a question asks for, at the times of a table.
+    pub(super) fn shown(&self, task: &Trajectory, scene: &Scene, times: &[f64], wanted: &Wanted) -> Shown {
+        let run = |at: &Looked| wrong_motions::run(&at.scene, &at.columns, at.end, &at.times, wanted);
+        self.shown.of(Looked::new(task, scene, times), wanted, run)
+    }
+
+    /// What `look` finds off with a table, or has found: the points that it earns have no part in it.
+    pub(super) fn finding(
+        &self,
+        task: &Trajectory,
+        times: &[f64],
+        given: &[Vec<f64>],
+        wanted: &Wanted,
+        look: impl Fn(&[f64], &[Vec<f64>]) -> MotionFinding,
+    ) -> MotionFinding {
+        let key = (Looked::new(task, &task.scene, times), given.to_vec());
+        self.findings.of(key, wanted, |(at, given)| look(&at.times, given))
+    }
+
+    /// Harmonic motions at the times of a table.
+    pub(super) fn waves(&self, times: &[f64], wanted: &Wanted) -> Arc<Waves> {
+        self.waves.of(times.to_vec(), wanted, |times| Arc::new(Waves::new(times)))
     }
 }
 
 /// How much grading computed, and did not know before.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Computed {
-    /// Values and motions by tight runs.
+    /// Values and motions by tight runs, and what authors' scenes show.
     pub references: usize,
     /// Runs with chosen settings.
     pub runs: usize,
     /// Judgements of programs, tables, scenes and settings.
     pub judgements: usize,
+    /// Runs of scenes with a mistake in them.
+    pub mistaken: usize,
+    /// Harmonic motions for the times of tables.
+    pub waves: usize,
+}
+
+/// A scene that a table is compared with, and where.
+#[derive(Debug, PartialEq)]
+struct Looked {
+    scene: Scene,
+    columns: BTreeMap<String, MeasuredFile>,
+    end: f64,
+    times: Vec<f64>,
 }
 
 /// A run with chosen settings.
@@ -96,10 +150,15 @@ pub(super) struct Made {
 pub(super) struct Asked {
     // First, as it differs most often.
     pub answer: Answer,
-    pub note: String,
     /// Of the instances of a program's question; empty for the others.
     pub seed: String,
     pub body: QuestionBody,
+}
+
+impl Looked {
+    fn new(task: &Trajectory, scene: &Scene, times: &[f64]) -> Self {
+        Self { scene: scene.clone(), columns: task.columns.clone(), end: task.end, times: times.to_vec() }
+    }
 }
 
 /// Results by what they were computed from.
@@ -152,7 +211,7 @@ impl<K, V> fmt::Debug for Kept<K, V> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeMap;
+    use std::fmt::Write as _;
 
     use crate::answers::{RunSettings, Submission, TypedValue};
     use crate::exercise::Tuning;
@@ -174,6 +233,35 @@ mod tests {
             0
         });
         assert_eq!((value, ask(7), made()), (0, 70, 6));
+    }
+
+    #[test]
+    fn wrong_tables_of_the_same_numbers_share_the_motions_of_mistakes() {
+        let course = Course::embedded().unwrap();
+        let lesson = course.lesson("verification").unwrap();
+        let known = Known::default();
+        let table = |swing: f64| {
+            let mut text = "t,x,y\n".to_owned();
+            for k in 0..=400 {
+                let t = f64::from(k) / 40.0;
+                let (x, y) = (-libm::cos(2.0 * t) - swing * t, -swing * libm::sin(t * t));
+                let _ = writeln!(text, "{t},{x},{y}");
+            }
+            text
+        };
+        let grade = |swing: f64| {
+            let answer = Answer { file: Some(table(swing)), ..Answer::default() };
+            let answers = BTreeMap::from([("your-run".to_owned(), answer)]);
+            let submission = Submission { answers, ..Submission::default() };
+            let verdict = grade_if(lesson, &submission, &known, &Wanted::default()).unwrap();
+            assert_eq!(verdict, crate::grade(lesson, &submission).unwrap());
+            known.computed()
+        };
+        let first = grade(0.3);
+        let once = Computed { references: 1, runs: 0, judgements: 1, mistaken: 5, waves: 1 };
+        assert_eq!(first, once);
+        assert_eq!(grade(0.4), Computed { judgements: 2, ..once });
+        assert_eq!(grade(0.3), Computed { judgements: 2, ..once });
     }
 
     #[test]

@@ -220,22 +220,21 @@ fn judge_work(
     known: &Known,
     wanted: &Wanted,
 ) -> Judgement {
-    let (answer, note, body) = (answer.clone(), question.right.clone(), question.body.clone());
-    let judge = |Asked { answer, note, seed, body }: &Asked| {
+    let (answer, body) = (answer.clone(), question.body.clone());
+    let judge = |Asked { answer, seed, body }: &Asked| {
         let judged = match body {
-            QuestionBody::Implement(task) => program::judge(task, seed, note, answer).map_err(Into::into),
+            QuestionBody::Implement(task) => program::judge(task, seed, answer).map_err(Into::into),
             QuestionBody::Trajectory(task) => {
-                trajectory::judge(task, note, answer, known, wanted).map_err(Into::into)
+                trajectory::judge(task, answer, known, wanted).map_err(Into::into)
             }
-            QuestionBody::Model(task) => model::judge(task, note, answer).map_err(Into::into),
-            QuestionBody::Tuning(task) => {
-                tuning::judge(task, note, answer, known, wanted).map_err(Into::into)
-            }
+            QuestionBody::Model(task) => model::judge(task, answer, known, wanted).map_err(Into::into),
+            QuestionBody::Tuning(task) => tuning::judge(task, answer, known, wanted).map_err(Into::into),
             _ => Ok(Judgement::blank()),
         };
         judged.unwrap_or_else(Judgement::invalid)
     };
-    known.judgements.of(Asked { answer, note, seed, body }, wanted, judge)
+    // An author's other words change no judgement.
+    known.judgements.of(Asked { answer, seed, body }, wanted, judge).with_note(&question.right)
 }
 
 /// A judgement as it is sent and kept.

@@ -1,14 +1,19 @@
 //! A scene of the student's own, judged by what it does.
 
+use std::sync::Arc;
+
+use triad_engine::analysis::Wanted;
 use triad_engine::analysis::check::{CheckReport, check};
 use triad_engine::run::Simulation;
 use triad_engine::scene::{ConstraintMethod, IntegratorKind, Scene, Settings};
 
+use super::known::Known;
 use crate::answers::Answer;
 use crate::answers::tolerance::{distance, norm};
 use crate::exercise::ModelTask;
 use crate::files::WatchFile;
-use crate::scenario::measure::{MeasureError, measure, reference_scenes, start};
+use crate::scenario::measure::MeasureError;
+use crate::tasks::authors_model::{AuthorsModel, seen};
 use crate::verdict::feedback::{Demand, DemandResult, Feedback, Judgement};
 use crate::verdict::invalid::InvalidModel;
 
@@ -22,13 +27,20 @@ const TOLERANCE: f64 = 1e-9;
 const SMALLEST_SIZE: f64 = 1e-9;
 
 /// Judges a scene.
-pub(super) fn judge(task: &ModelTask, note: &str, answer: &Answer) -> Result<Judgement, InvalidModel> {
+pub(super) fn judge(
+    task: &ModelTask,
+    answer: &Answer,
+    known: &Known,
+    wanted: &Wanted,
+) -> Result<Judgement, InvalidModel> {
     let text = answer.file.as_ref().ok_or(InvalidModel::NoFile)?;
     let (scene, report) = accepted(task, text)?;
-    let demands = compare(task, &scene, &report).map_err(InvalidModel::Reference)?;
+    let author = known.models.of(task.clone(), wanted, |task| AuthorsModel::new(task).map(Arc::new));
+    let demands = author.and_then(|author| compare(task, &author, &scene, &report));
+    let demands = demands.map_err(InvalidModel::Reference)?;
     let met = demands.iter().filter(|d| d.met).count();
     if met == demands.len() {
-        return Ok(Judgement::right(Feedback::Model { demands, note: Some(note.to_owned()) }));
+        return Ok(Judgement::right(Feedback::Model { demands, note: Some(String::new()) }));
     }
     // A scene of another structure is another mechanism, whatever it shares with the one that is asked for.
     let (shown, structure): (Vec<&DemandResult>, Vec<&DemandResult>) =
@@ -66,12 +78,16 @@ fn accepted(task: &ModelTask, text: &str) -> Result<(Scene, CheckReport), Invali
 }
 
 /// What is demanded, side by side with the author's scene.
-fn compare(task: &ModelTask, scene: &Scene, report: &CheckReport) -> Result<Vec<DemandResult>, MeasureError> {
+fn compare(
+    task: &ModelTask,
+    author: &AuthorsModel,
+    scene: &Scene,
+    report: &CheckReport,
+) -> Result<Vec<DemandResult>, MeasureError> {
     let demands = &task.demands;
     let mut results = Vec::new();
     let mut add = |demand: Demand, met: bool| results.push(DemandResult { demand, met });
-    if demands.degrees_of_freedom {
-        let wanted = check(&task.reference)?.degrees_of_freedom;
+    if let Some(wanted) = author.degrees_of_freedom {
         let found = report.degrees_of_freedom;
         add(Demand::DegreesOfFreedom { found }, found == wanted);
     }
@@ -84,55 +100,28 @@ fn compare(task: &ModelTask, scene: &Scene, report: &CheckReport) -> Result<Vec<
         let found = scene.joints.iter().filter(|joint| joint.kind.to_string() == *kind).count();
         add(Demand::Joint { kind: kind.clone(), found }, found >= *least);
     }
-    results.extend(watched(task, scene)?);
+    results.extend(watched(task, author, scene)?);
     Ok(results)
 }
 
 /// The motion and the reactions that are watched, side by side with the author's scene.
-fn watched(task: &ModelTask, scene: &Scene) -> Result<Vec<DemandResult>, MeasureError> {
-    let mut times: Vec<f64> = task.watches().iter().flat_map(|w| w.times.clone()).collect();
-    times.sort_by(f64::total_cmp);
-    times.dedup();
-    let end = times.last().copied().unwrap_or(0.0);
-    let [reference, _] = reference_scenes(&task.reference, end);
-    let own = run(&reference, &times, task.watches(), &mut start(&reference)?)?;
-    let own = own.into_iter().collect::<Result<Vec<_>, _>>()?;
+fn watched(
+    task: &ModelTask,
+    author: &AuthorsModel,
+    scene: &Scene,
+) -> Result<Vec<DemandResult>, MeasureError> {
     let mut simulation = Simulation::new(scene)?;
     simulation.set_step_limit(MAX_STEPS);
-    let given = run(scene, &times, task.watches(), &mut simulation);
+    let given = seen(task, scene, &mut simulation);
     let result = |(k, watch): (usize, &WatchFile)| {
         let (met, stopped) = match given.as_ref().map(|given| &given[k]) {
             Err(problem) | Ok(Err(problem)) => (false, Some(problem.clone())),
-            Ok(Ok(given)) => (close(given, &own[k], watch.tolerance), None),
+            Ok(Ok(given)) => (close(given, &author.seen[k], watch.tolerance), None),
         };
         let (what, feedback) = (watch.what.clone(), watch.feedback.clone());
         DemandResult { demand: Demand::Watch { number: k + 1, what, feedback, stopped }, met }
     };
     Ok(task.watches().iter().enumerate().map(result).collect())
-}
-
-/// What one watch sees at its times; why not, where the scene lacks what it looks at.
-type Seen = Result<Vec<Vec<f64>>, MeasureError>;
-
-/// What each watch sees, at its own times.
-fn run(
-    scene: &Scene,
-    times: &[f64],
-    watches: &[WatchFile],
-    simulation: &mut Simulation,
-) -> Result<Vec<Seen>, MeasureError> {
-    let mut seen: Vec<Seen> = vec![Ok(Vec::new()); watches.len()];
-    for t in times {
-        simulation.advance_to(*t)?;
-        for (seen, watch) in seen.iter_mut().zip(watches).filter(|(_, w)| w.times.contains(t)) {
-            match (seen.as_mut(), measure(scene, simulation, &watch.measured)) {
-                (Ok(seen), Ok(values)) => seen.push(values),
-                (Ok(_), Err(problem)) => *seen = Err(problem),
-                (Err(_), _) => {}
-            }
-        }
-    }
-    Ok(seen)
 }
 
 /// Whether all differences are small beside the largest value.

@@ -19,12 +19,7 @@ use crate::verdict::invalid::InvalidProgram;
 const SAME_MULTIPLE: f64 = 1e-5;
 
 /// Judges what a program sent; `seed` is that of the instances.
-pub(super) fn judge(
-    task: &Implement,
-    seed: &str,
-    note: &str,
-    answer: &Answer,
-) -> Result<Judgement, InvalidProgram> {
+pub(super) fn judge(task: &Implement, seed: &str, answer: &Answer) -> Result<Judgement, InvalidProgram> {
     let text = answer.file.as_ref().ok_or(InvalidProgram::NoFile)?;
     let mut instances = Instances::new(task, seed).map_err(InvalidProgram::Instances)?;
     let rows = row_names(&instances.mechanism.system);
@@ -39,7 +34,7 @@ pub(super) fn judge(
     }
     let right = parts.iter().filter(|(_, finding)| *finding == PartFinding::Right).count();
     if right == parts.len() {
-        return Ok(Judgement::right(Feedback::Right { note: note.to_owned() }));
+        return Ok(Judgement::right(Feedback::Right { note: String::new() }));
     }
     let misconception = parts.iter().find_map(|(part, finding)| match finding {
         PartFinding::Misconception { id, .. } => Some(format!("{}-{id}", part.key())),

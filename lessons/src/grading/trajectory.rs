@@ -10,9 +10,8 @@ use super::known::Known;
 use crate::answers::{Answer, table};
 use crate::exercise::{QuestionBody, Trajectory};
 use crate::lesson::Lesson;
-use crate::mistakes::Mistake;
-use crate::scenario::measure::{MeasureError, measure};
-use crate::tasks::trajectory::{Deviation, ReferenceMotion};
+use crate::scenario::measure::{MeasureError, row};
+use crate::tasks::trajectory::ReferenceMotion;
 use crate::tasks::wrong_motions::{self, Table};
 use crate::verdict::feedback::{Feedback, Judgement, MotionFinding};
 use crate::verdict::invalid::InvalidTrajectory;
@@ -62,15 +61,13 @@ impl AskedTable<'_> {
     ///
     /// Errors if the scene lacks what a column is about.
     pub fn row(&self, scene: &Scene, run: &Simulation) -> Result<Vec<f64>, MeasureError> {
-        let column = |measured| Ok(measure(scene, run, measured)?.first().copied().unwrap_or(f64::NAN));
-        self.0.columns.values().map(column).collect()
+        row(scene, run, &self.0.columns)
     }
 }
 
 /// Judges a table.
 pub(super) fn judge(
     task: &Trajectory,
-    note: &str,
     answer: &Answer,
     known: &Known,
     wanted: &Wanted,
@@ -82,10 +79,9 @@ pub(super) fn judge(
     let error = motion.distance(&times, &given);
     let share = task.bands.iter().find(|b| error <= b.error).map_or(0.0, |b| b.share);
     if share == 1.0 {
-        return Ok(Judgement::right(Feedback::TrajectoryRight { error, note: note.to_owned() }));
+        return Ok(Judgement::right(Feedback::TrajectoryRight { error, note: String::new() }));
     }
-    let usual = wrong_motions::recognise(task, &motion, &Table::new(&times, &given), wanted);
-    let finding = kind(task, &motion.deviation(&times, &given), &times, &given, &motion, usual);
+    let finding = kind(task, &motion, (&times, &given), known, wanted);
     Ok(Judgement::wrong(share, finding.misconception(), Feedback::Trajectory { error, finding }))
 }
 
@@ -122,30 +118,46 @@ fn read(task: &Trajectory, text: &str) -> Result<(Vec<f64>, Vec<Vec<f64>>), Inva
     Ok((times[..kept].to_vec(), given))
 }
 
-/// Which kind of error it is; `known` is the usual mistake whose motion it is.
+/// Which kind of error it is: what takes longer is only asked where the quicker tells nothing.
 fn kind(
     task: &Trajectory,
-    d: &Deviation,
-    times: &[f64],
-    given: &[Vec<f64>],
     motion: &ReferenceMotion,
-    known: Option<&'static Mistake>,
+    (times, given): (&[f64], &[Vec<f64>]),
+    known: &Known,
+    wanted: &Wanted,
 ) -> MotionFinding {
     let negative = given.iter().map(|v| v.iter().map(|x| -x).collect()).collect::<Vec<Vec<f64>>>();
     let worst = task.bands.last().map_or(0.0, |b| b.error);
+    if motion.distance(times, given) > worst && motion.distance(times, &negative) <= worst {
+        return MotionFinding::OppositeSign;
+    }
+    known.finding(task, times, given, wanted, |times, given| off(task, motion, times, given, known, wanted))
+}
+
+/// What is off with a table that is not the opposite of the right one, whatever its points.
+fn off(
+    task: &Trajectory,
+    motion: &ReferenceMotion,
+    times: &[f64],
+    given: &[Vec<f64>],
+    known: &Known,
+    wanted: &Wanted,
+) -> MotionFinding {
+    let table = Table::new(times, given);
+    let shown = |scene: &Scene, times: &[f64]| known.shown(task, scene, times, wanted);
+    if let Some(mistake) = wrong_motions::recognise(task, motion, &table, shown) {
+        return MotionFinding::Usual(mistake);
+    }
+    let d = motion.deviation(times, given);
     let (late, factor) = (d.late, d.factor);
-    if d.total > worst && motion.distance(times, &negative) <= worst {
-        MotionFinding::OppositeSign
-    } else if let Some(mistake) = known {
-        MotionFinding::Usual(mistake)
-    } else if d.without_phase <= EXPLAINED * d.total {
+    if d.without_phase <= EXPLAINED * d.total {
         MotionFinding::Phase { late }
     } else if d.without_factor <= EXPLAINED * d.total {
         MotionFinding::Amplitude { factor }
     } else if d.rest <= EXPLAINED * d.total && factor > 0.0 {
         MotionFinding::PhaseAndAmplitude { late, factor }
     } else {
-        wrong_motions::shape(motion, &Table::new(times, given))
-            .map_or(MotionFinding::Unknown, MotionFinding::Usual)
+        let found = wrong_motions::shape(motion, &table, |times| known.waves(times, wanted));
+        found.map_or(MotionFinding::Unknown, MotionFinding::Usual)
     }
 }

@@ -10,7 +10,7 @@ use crate::answers::tolerance::distance;
 use crate::answers::{Answer, RunSettings, TypedValue, number};
 use crate::exercise::Tuning;
 use crate::files::MeasuredFile;
-use crate::scenario::measure::{MeasureError, measure, with_error};
+use crate::scenario::measure::{MeasureError, measure, tight};
 use crate::verdict::feedback::{Feedback, Judgement, TuningFeedback};
 use crate::verdict::invalid::InvalidSettings;
 
@@ -35,14 +35,13 @@ struct RunCost {
 /// Judges settings, as long as that is wanted.
 pub(super) fn judge(
     task: &Tuning,
-    note: &str,
     answer: &Answer,
     known: &Known,
     wanted: &Wanted,
 ) -> Result<Judgement, InvalidSettings> {
     let settings = answer.settings.as_ref().ok_or(InvalidSettings::NoSettings)?;
     let scene = chosen(task, settings)?;
-    let run = |(scene, watch): &(Scene, MeasuredFile)| with_error(scene, watch).map(|(value, _)| value);
+    let run = |(scene, watch): &(Scene, MeasuredFile)| tight(scene, watch);
     let reference = known.references.of((task.scene.clone(), task.watch.clone()), wanted, run);
     let reference = reference.map_err(InvalidSettings::Reference)?;
     let cost = match cost(task, scene, &reference, known, wanted) {
@@ -58,7 +57,7 @@ pub(super) fn judge(
         error: cost.error,
         allowed: task.error,
         violation: task.violation.map(|allowed| [cost.violation, allowed]),
-        note: note.to_owned(),
+        note: String::new(),
     };
     let (precise, cheap) = (feedback.is_precise(), feedback.is_cheap() && cost.error.is_some());
     let drifted = feedback.has_drifted();

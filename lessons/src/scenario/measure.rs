@@ -1,5 +1,7 @@
 //! Reading a value off a scene: how the check, computed misconceptions, models, trajectories and tuning measure.
 
+use std::collections::BTreeMap;
+
 use thiserror::Error;
 use triad_engine::EngineError;
 use triad_engine::analysis::check::check as engine_check;
@@ -160,6 +162,26 @@ pub(crate) fn measure(
     Ok(component(seen.vector(scene, measured)?, measured.component))
 }
 
+/// One number of each measurement at the run's moment, seen at one look.
+pub(crate) fn row(
+    scene: &Scene,
+    simulation: &Simulation,
+    columns: &BTreeMap<String, MeasuredFile>,
+) -> Result<Vec<f64>, MeasureError> {
+    let reactions =
+        if columns.values().any(|one| one.joint.is_some()) { simulation.multipliers() } else { Vec::new() };
+    let seen = Observation { bodies: simulation.frame().bodies, reactions };
+    let number = |measured: &MeasuredFile| {
+        let values = if measured.count.is_some() || measured.energy {
+            measure(scene, simulation, measured)?
+        } else {
+            component(seen.vector(scene, measured)?, measured.component)
+        };
+        Ok(values.first().copied().unwrap_or(f64::NAN))
+    };
+    columns.values().map(number).collect()
+}
+
 /// About how far a measurement at the run's moment may be off, by the run's own estimate; infinite where that is not known.
 pub(crate) fn estimated_error(simulation: &Simulation, measured: &MeasuredFile) -> f64 {
     if measured.count.is_some() {
@@ -216,6 +238,12 @@ pub(crate) fn reference_scenes(scene: &Scene, end: f64) -> [Scene; 2] {
         scene
     };
     [with(IntegratorKind::Auto, TIGHT), with(IntegratorKind::Dop853, LESS_TIGHT)]
+}
+
+/// The value of a measurement in SI units, by the tight run alone.
+pub(crate) fn tight(scene: &Scene, measured: &MeasuredFile) -> Result<Vec<f64>, MeasureError> {
+    let [scene, _] = reference_scenes(scene, measured.time);
+    measure(&scene, &run_to(&scene, measured.time)?, measured)
 }
 
 /// The value of a measurement in SI units, and a bound on its error: from two runs by different methods, and from the estimate that

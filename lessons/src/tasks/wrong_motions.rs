@@ -1,15 +1,19 @@
 //! Motions that usual mistakes lead to, and what a wrong table shows of the way it was made.
 
+use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 use triad_engine::analysis::Wanted;
 use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
 
+use super::harmonic::Waves;
 use super::trajectory::ReferenceMotion;
 use crate::exercise::Trajectory;
+use crate::files::MeasuredFile;
 use crate::mistakes::{self, Mistake};
-use crate::scenario::measure::{MAX_STEPS, measure, start};
+use crate::scenario::measure::{MAX_STEPS, row, start};
 
 /// Relative distance up to which a table is a motion that a mistake leads to.
 const SAME: f64 = 0.03;
@@ -25,10 +29,6 @@ const TIMES: [f64; 2] = [2.0, 0.5];
 const GROWTH: f64 = 1.1;
 /// Part of the swings that a harmonic motion leaves unexplained, at most.
 const HARMONIC: f64 = 0.003;
-/// Frequencies that are tried.
-const FREQUENCIES: u32 = 600;
-/// Most periods within the time.
-const MOST_PERIODS: f64 = 30.0;
 /// Gravity as many round it, against what the scene has, m/s².
 const ROUNDED_GRAVITY: f64 = 10.0;
 
@@ -59,12 +59,15 @@ impl Table {
     }
 }
 
-/// The mistake whose motion the table is, if there is one; none where nobody wants to know it any more.
+/// The columns of a scene at some times; none where it does not run so far.
+pub(crate) type Shown = Option<Arc<Vec<Vec<f64>>>>;
+
+/// The mistake whose motion the table is, if there is one; `shown` runs a scene, or has run it.
 pub(crate) fn recognise(
     task: &Trajectory,
     motion: &ReferenceMotion,
     table: &Table,
-    wanted: &Wanted,
+    shown: impl Fn(&Scene, &[f64]) -> Shown,
 ) -> Option<&'static Mistake> {
     let right = at_times(motion, table, 1.0);
     let limit = SAME.min(MUCH_NEARER * table.apart(&right));
@@ -80,13 +83,16 @@ pub(crate) fn recognise(
         return Some(mistakes::VELOCITIES);
     }
     let worlds = worlds(&task.scene).into_iter();
-    let mut shown =
-        worlds.filter_map(|(mistake, scene)| Some((mistake, run(task, &scene, &table.times, wanted)?)));
+    let mut shown = worlds.filter_map(|(mistake, scene)| Some((mistake, shown(&scene, &table.times)?)));
     shown.find(|(_, other)| is(other)).map(|(mistake, _)| mistake)
 }
 
-/// What the shape of a table tells that is no motion known before.
-pub(crate) fn shape(motion: &ReferenceMotion, table: &Table) -> Option<&'static Mistake> {
+/// What the shape of a table tells that is no motion known before; `waves` makes those of some times, or has made them.
+pub(crate) fn shape(
+    motion: &ReferenceMotion,
+    table: &Table,
+    waves: impl Fn(&[f64]) -> Arc<Waves>,
+) -> Option<&'static Mistake> {
     let right = Table { times: table.times.clone(), columns: at_times(motion, table, 1.0) };
     let still = |values: &Vec<f64>| spread(values) == 0.0;
     if table.columns.iter().all(still) && !right.columns.iter().all(still) {
@@ -102,10 +108,9 @@ pub(crate) fn shape(motion: &ReferenceMotion, table: &Table) -> Option<&'static 
     }
     let signals = |table: &Table| [table.columns.clone(), angles(table)].concat();
     let (own, wanted) = (signals(table), signals(&right));
+    let waves = waves(&table.times);
     let harmonic = own.iter().zip(&wanted).any(|(own, wanted)| {
-        spread(own) > 0.0
-            && unexplained(&table.times, own) <= HARMONIC
-            && unexplained(&table.times, wanted) > 2.0 * HARMONIC
+        spread(own) > 0.0 && waves.unexplained(own) <= HARMONIC && waves.unexplained(wanted) > 2.0 * HARMONIC
     });
     if harmonic {
         return Some(mistakes::SMALL_ANGLES);
@@ -174,21 +179,27 @@ fn worlds(scene: &Scene) -> Vec<(&'static Mistake, Scene)> {
     ]
 }
 
-/// The columns of a scene at these times, as long as they are wanted.
-fn run(task: &Trajectory, scene: &Scene, times: &[f64], wanted: &Wanted) -> Option<Vec<Vec<f64>>> {
+/// The columns that a question asks for, of a scene at these times up to an end, as long as they are wanted.
+pub(crate) fn run(
+    scene: &Scene,
+    columns: &BTreeMap<String, MeasuredFile>,
+    end: f64,
+    times: &[f64],
+    wanted: &Wanted,
+) -> Shown {
     if !wanted.is_still() {
         return None;
     }
     let mut simulation: Simulation = start(scene).ok()?;
     simulation.set_step_limit(MAX_STEPS);
-    let mut columns = vec![Vec::with_capacity(times.len()); task.columns.len()];
+    let mut shown = vec![Vec::with_capacity(times.len()); columns.len()];
     for t in times {
-        simulation.advance_to(t.clamp(0.0, task.end)).ok().filter(|()| wanted.is_still())?;
-        for (column, measured) in columns.iter_mut().zip(task.columns.values()) {
-            column.push(measure(scene, &simulation, measured).ok()?.first().copied()?);
+        simulation.advance_to(t.clamp(0.0, end)).ok().filter(|()| wanted.is_still())?;
+        for (column, value) in shown.iter_mut().zip(row(scene, &simulation, columns).ok()?) {
+            column.push(value);
         }
     }
-    Some(columns)
+    Some(Arc::new(shown))
 }
 
 fn mean(values: &[f64]) -> f64 {
@@ -238,65 +249,4 @@ fn angles(table: &Table) -> Vec<Vec<f64>> {
         list.push(angle + jump);
     }
     vec![list]
-}
-
-/// The part of the swings that the best harmonic motion leaves.
-fn unexplained(times: &[f64], values: &[f64]) -> f64 {
-    let end = times.last().copied().unwrap_or(1.0);
-    let size = {
-        let mean = mean(values);
-        values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>().sqrt()
-    };
-    let left = |periods: f64| harmonic_rest(times, values, TAU * periods / end);
-    let step = MOST_PERIODS / f64::from(FREQUENCIES);
-    let tried = (1..=FREQUENCIES).map(|k| f64::from(k) * step);
-    let mut best = tried.min_by(|a, b| left(*a).total_cmp(&left(*b))).unwrap_or(step);
-    let mut h = step;
-    for _ in 0..20 {
-        h *= 0.6;
-        best = [best - h, best, best + h]
-            .into_iter()
-            .min_by(|a, b| left(*a).total_cmp(&left(*b)))
-            .unwrap_or(best);
-    }
-    if size > 0.0 { left(best) / size } else { 0.0 }
-}
-
-/// What a cos ωt + b sin ωt + c leaves of the values, in the least squares.
-fn harmonic_rest(times: &[f64], values: &[f64], omega: f64) -> f64 {
-    let (mut matrix, mut right) = ([[0.0; 3]; 3], [0.0; 3]);
-    let basis = |t: f64| [libm::cos(omega * t), libm::sin(omega * t), 1.0];
-    for (t, x) in times.iter().zip(values) {
-        let b = basis(*t);
-        for i in 0..3 {
-            right[i] += b[i] * x;
-            for j in 0..3 {
-                matrix[i][j] += b[i] * b[j];
-            }
-        }
-    }
-    let Some(found) = solved(matrix, right) else { return f64::INFINITY };
-    let rest = times.iter().zip(values).map(|(t, x)| {
-        let b = basis(*t);
-        let rest = x - (0..3).map(|k| found[k] * b[k]).sum::<f64>();
-        rest * rest
-    });
-    rest.sum::<f64>().sqrt()
-}
-
-/// The solution of three equations by Cramer's rule.
-fn solved(m: [[f64; 3]; 3], r: [f64; 3]) -> Option<[f64; 3]> {
-    let det = |m: &[[f64; 3]; 3]| {
-        m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
-            + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
-    };
-    let whole = det(&m);
-    let with = |k: usize| {
-        let mut m = m;
-        for (row, x) in m.iter_mut().zip(r) {
-            row[k] = x;
-        }
-        det(&m) / whole
-    };
-    (whole.abs() > f64::MIN_POSITIVE).then(|| [with(0), with(1), with(2)])
 }

@@ -36,6 +36,19 @@ impl Judgement {
         Self { mark: Mark::Wrong, share, misconception, feedback, figure: None }
     }
 
+    /// The same with the author's words on what is right, where it tells them.
+    pub(crate) fn with_note(self, note: &str) -> Self {
+        let note = note.to_owned();
+        let feedback = match self.feedback {
+            Feedback::Right { .. } => Feedback::Right { note },
+            Feedback::Model { demands, note: Some(_) } => Feedback::Model { demands, note: Some(note) },
+            Feedback::TrajectoryRight { error, .. } => Feedback::TrajectoryRight { error, note },
+            Feedback::Tuning(told) => Feedback::Tuning(TuningFeedback { note, ..told }),
+            other => other,
+        };
+        Self { feedback, ..self }
+    }
+
     /// Nothing was filled in.
     pub(crate) fn blank() -> Self {
         Self { mark: Mark::Blank, share: 0.0, misconception: None, feedback: Feedback::Blank, figure: None }

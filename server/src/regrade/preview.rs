@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use serde_json::Value;
 use triad_engine::analysis::Wanted;
-use triad_lessons::{Lesson, Verdict};
+use triad_lessons::{Computed as Made, Lesson, Verdict};
 
 use super::judged::{Judged, Progress, Version, by_graders};
 use super::told::{Changed, Counts, PersonChange, Preview, SubmissionChange};
@@ -46,6 +46,8 @@ pub struct Computed {
     people: Vec<(PersonChange, Vec<Graded>)>,
     bundle: String,
     verdicts: usize,
+    /// What this program computed for it: none where graders did.
+    pub made: Made,
 }
 
 /// Previews that are being made, and those that were made and not applied yet.
@@ -164,10 +166,12 @@ pub async fn preview(
     // Whoever leaves drops the asker.
     let (_asker, wanted) = Asker::new();
     let again = move || {
-        let graded = all_again(&by_person(records), &lessons, &judges, &wanted);
-        still(&wanted).map(|()| graded)
+        // Of both versions, by all threads: what the change of the lesson does not touch is computed once.
+        let variants = Variants::default();
+        let graded = all_again(&by_person(records), &lessons, &judges, &variants, &wanted);
+        still(&wanted).map(|()| (graded, variants.known.computed()))
     };
-    let graded = aside::run(again).await?;
+    let (graded, made) = aside::run(again).await?;
     let now = Moment::now();
     let mut people: Vec<(PersonChange, Vec<Graded>)> = graded
         .into_iter()
@@ -179,7 +183,7 @@ pub async fn preview(
     let all = people.iter().flat_map(|(_, graded)| graded);
     shown.of_other_versions = all.filter(|one| one.record.lesson_sha256 != version).count();
     shown.seconds = started.elapsed().as_secs_f64();
-    Ok(Computed { shown, people, bundle, verdicts })
+    Ok(Computed { shown, people, bundle, verdicts, made })
 }
 
 /// What each person was told, in the order of the log.
@@ -233,18 +237,17 @@ fn all_again(
     people: &[Vec<Recorded>],
     lessons: &Lessons,
     judges: &Judges,
+    variants: &Variants,
     wanted: &Wanted,
 ) -> Vec<Vec<Graded>> {
     let next = AtomicUsize::new(0);
     let threads = std::thread::available_parallelism().map_or(1, usize::from).min(people.len().max(1));
-    // Of both versions, by all threads: what the change of the lesson does not touch is computed once.
-    let variants = Variants::default();
     let work = || {
         let mut done = Vec::new();
         while let Some(records) =
             people.get(next.fetch_add(1, Ordering::Relaxed)).filter(|_| wanted.is_still())
         {
-            done.push(person_again(records, lessons, judges, &variants, wanted));
+            done.push(person_again(records, lessons, judges, variants, wanted));
             if let Judges::Here(progress) = judges {
                 progress.done.fetch_add(records.len(), Ordering::Relaxed);
             }

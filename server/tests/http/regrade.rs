@@ -7,10 +7,12 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 use triad::grader::{Grader, LEASE};
 use triad::policy::Moment;
-use triad::store::CLASS;
-use triad_lessons::Course;
+use triad::regrade::preview;
+use triad::store::{CLASS, HOME, Store, identifier};
+use triad_lessons::{Computed as Made, Course};
 
 use crate::class::{Class, class};
+use crate::leaving::table_of;
 
 /// The files of a folder by their paths.
 fn read(folder: &Path, at: &str, files: &mut BTreeMap<String, Vec<u8>>) {
@@ -59,6 +61,34 @@ impl Class {
         let lesson = self.see(who, "/api/v1/lessons/simple-pendulum").await;
         format!("{:.4}", 3.0 * 9.81 * lesson["scene"]["bodies"][0]["mass"].as_f64().expect("a mass"))
     }
+}
+
+/// The old version and the new one ask the same of the same person: what does not depend on what was handed in is computed once, and
+/// each judgement once for both.
+#[tokio::test]
+async fn a_preview_computes_nothing_twice() {
+    let store = Store::in_memory();
+    let lesson = Course::embedded().expect("a course").lesson("verification").expect("a lesson").clone();
+    let table = |swing: f64| {
+        let row = |k: u32| {
+            let t = f64::from(k) / 40.0;
+            format!("{t},{},{}\n", -libm::cos(2.0 * t) - swing * t, -swing * libm::sin(t * t))
+        };
+        "t,x,y\n".to_owned() + &(0..=400).map(row).collect::<String>()
+    };
+    for swing in [0.3, 0.4, 0.5] {
+        let new = table_of(&store, &lesson, "Ada", &table(swing)).await;
+        store.hand_in(&new).await.expect("keeps");
+    }
+    let edited = course_with("verification/exercise.toml", |exercise| {
+        let (head, tail) = exercise.split_once("id = \"your-run\"").expect("the question");
+        format!("{head}id = \"your-run\"{}", tail.replacen("points = 4", "points = 5", 1))
+    });
+    let edited = edited.lesson("verification").expect("a lesson");
+    let seen = preview(&store, identifier(), HOME, edited, Arc::default()).await.expect("looks");
+    assert_eq!((seen.shown.submissions, seen.shown.counts.program, seen.shown.of_other_versions), (3, 0, 3));
+    let made = Made { references: 1, runs: 0, judgements: 3, mistaken: 5, waves: 1 };
+    assert_eq!(seen.made, made);
 }
 
 #[tokio::test]
