@@ -240,7 +240,7 @@ statements! {
         JOIN assignment a ON a.id = s.assignment JOIN verdict v ON v.submission = s.id \
         WHERE a.course = $1 AND s.id = $2 ORDER BY v.run DESC LIMIT 1";
     EVENT_UNTIL = "SELECT n FROM event WHERE course = $1 AND at <= $2 ORDER BY n DESC LIMIT 1";
-    RECENT = "SELECT s.id, s.person, a.slug, s.answers, v.body, v.lesson_sha256, v.seed, v.build, s.received_at \
+    RECENT = "SELECT s.id, s.person, a.slug, CAST('' AS TEXT), v.body, v.lesson_sha256, v.seed, v.build, s.received_at \
         FROM assignment a JOIN submission s ON s.assignment = a.id JOIN verdict v ON v.submission = s.id \
         WHERE a.course = $1 AND s.n > $2 AND v.run = (SELECT MAX(run) FROM verdict w WHERE w.submission = s.id) ORDER BY s.n";
     // Whether what stands there is what was written.

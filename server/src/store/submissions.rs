@@ -219,7 +219,7 @@ impl Store {
         Ok(rows.into_iter().map(recorded).collect())
     }
 
-    /// What was handed in to a course after a moment, the oldest first, with the verdicts in force.
+    /// Verdicts in force on what was handed in to a course after a moment, the oldest first; what was handed in, often files, is not read.
     ///
     /// Errors if the file cannot be read.
     pub async fn recent(&self, course: &str, after: Moment) -> Result<Vec<Recorded>, StoreError> {

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 use triad::glance::{HERE, Presence};
 use triad::policy::Moment;
+use triad::store::CLASS;
 
 use crate::class::class;
 
@@ -32,6 +33,8 @@ async fn who_is_where_who_is_stuck_and_what_was_handed_in() {
     for value in ["1.000", "1.0000", "1.000 N"] {
         hand_in(&ada, value).await;
     }
+    let recent = class.app.store.recent(CLASS, Moment(0)).await.expect("reads");
+    assert!(recent.iter().all(|one| one.answers.is_empty() && one.body.contains("earned")), "{recent:?}");
     let seen = glance().await;
     let lessons: Vec<(&Value, usize)> = seen["lessons"]
         .as_array()
