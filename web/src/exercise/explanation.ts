@@ -20,7 +20,7 @@ export function explanationInput(
     class: "field",
     rows: "6",
     maxlength: "10000",
-    "aria-label": t("Your explanation"),
+    "aria-label": place.named(t("Your explanation")),
     "aria-describedby": `${countId} ${place.described}`,
   });
   text.value = draft?.[0] ?? "";

@@ -21,6 +21,8 @@ export interface QuestionContext {
   seed: string;
   base: string;
   described: string;
+  /** The name of one of its fields for screen readers, which list them without the question around them. */
+  named: (what: string) => string;
   /** The run beside the questions, once there is one. */
   run: () => OwnRun | undefined;
 }

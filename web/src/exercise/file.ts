@@ -57,7 +57,7 @@ class FileInput {
       spellcheck: "false",
       autocapitalize: "off",
       autocomplete: "off",
-      "aria-label": kind.label(),
+      "aria-label": context.named(kind.label()),
       "aria-describedby": `${described} ${base}-status`,
       placeholder: t("Paste {example} here, or choose a file", { example: kind.example() }),
     });
@@ -66,7 +66,7 @@ class FileInput {
       type: "file",
       id: `${base}-file`,
       accept: kind.accept,
-      "aria-label": t("Choose a file: {label}", { label: kind.label() }),
+      "aria-label": context.named(t("Choose a file: {label}", { label: kind.label() })),
     });
     this.status = h("p", { class: "file-status", id: `${base}-status`, role: "status" });
     this.root = h(

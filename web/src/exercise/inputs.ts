@@ -39,7 +39,7 @@ function unitInput(
   draft: string | undefined,
 ): HTMLInputElement | null {
   if (!question.asks_unit) return null;
-  return textInput(`${place.base}-unit`, t("Unit"), place.described, draft ?? "", "unit-field");
+  return textInput(`${place.base}-unit`, place.named(t("unit")), place.described, draft ?? "", "unit-field");
 }
 
 /** A unit that is not asked for stands behind the field. */
@@ -49,12 +49,9 @@ function givenUnit(question: Question): HTMLElement | null {
 
 function single(question: Question, place: QuestionContext, draft: string[] | undefined): Inputs {
   const formula = question.kind === "formula";
-  const value = textInput(
-    `${place.base}-value`,
-    formula ? t("Formula") : t("Value"),
-    place.described,
-    draft?.[0] ?? "",
-  );
+  const asked = question.unit ? t("value in {unit}", { unit: question.unit }) : t("value");
+  const label = place.named(formula ? t("formula") : asked);
+  const value = textInput(`${place.base}-value`, label, place.described, draft?.[0] ?? "");
   if (formula) {
     value.inputMode = "text";
     value.maxLength = 400;
@@ -78,7 +75,7 @@ function grid(question: Question, place: QuestionContext, draft: string[] | unde
       ? t("row {row}, column {column}", { row: row + 1, column: (k % columns) + 1 })
       : t("{axis} component", { axis: axes[row] ?? "" });
     const suffix = matrix ? `${row + 1}-${(k % columns) + 1}` : axes[row];
-    return textInput(`${place.base}-${suffix}`, label, place.described, draft?.[k] ?? "");
+    return textInput(`${place.base}-${suffix}`, place.named(label), place.described, draft?.[k] ?? "");
   });
   for (const [at, cell] of cells.entries())
     cell.addEventListener("paste", (event) => {

@@ -39,7 +39,9 @@ export function questionField(
   const base = `q-${question.id}`;
   const ruleId = `${base}-rule`;
   const verdictId = `${base}-verdict`;
-  const context = { slug: lesson.slug, seed: lesson.seed, base, described: `${ruleId} ${verdictId}`, run };
+  const named = (what: string): string => t("Question {number}: {what}", { number, what });
+  const described = `${ruleId} ${verdictId}`;
+  const context = { slug: lesson.slug, seed: lesson.seed, base, described, named, run };
   const inputs = inputsOf(question, context, before.draft);
   const opened = hints(lesson, question, before.hints, changed);
   const verdict = h("div", { id: verdictId, class: "verdict-slot" });

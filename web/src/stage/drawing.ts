@@ -11,7 +11,8 @@ import { Beside } from "./beside";
 import { circle, outline, pointsOf } from "./extent";
 import { type Box, boxOf, Eye } from "./eye";
 import { drawForces } from "./forces-picture";
-import { distanceTo, drawMechanism, drawWorldAxes } from "./mechanism";
+import { type Place, placeOf } from "./labels";
+import { axesCorner, distanceTo, drawMechanism, drawWorldAxes } from "./mechanism";
 import { type Palette, palette } from "./palette";
 import { CanvasPen, type Pen, type Point, SvgPen } from "./pen";
 import { drawPull } from "./pull-picture";
@@ -56,6 +57,8 @@ export class Drawing {
   private swept = false;
   private easing: { from: [number, Point]; to: [number, Point]; since: number } | undefined;
   private toldAt = 0;
+  /** Where buttons lie over the picture. */
+  private covered: Place[] = [];
   private readonly beside = new Beside();
   private readonly watch: ResizeObserver;
 
@@ -65,6 +68,8 @@ export class Drawing {
     private readonly still: () => boolean,
     /** Without axes and names. */
     private readonly plain = false,
+    /** What lies over it. */
+    private readonly over: () => HTMLElement[] = () => [],
   ) {
     this.eye = Eye.under(scene?.gravity);
     this.watch = new ResizeObserver(() => this.resize());
@@ -254,7 +259,8 @@ export class Drawing {
       Object.assign(this.root.dataset, { ghost: String(ghost), traced: String(traced) });
     });
     drawPull(pen, this.session, state, eye, colours);
-    drawForces(pen, this.session, state, eye, colours);
+    const covered = this.plain ? [] : [axesCorner(eye, colours), ...this.covered];
+    drawForces(pen, this.session, state, eye, colours, covered);
     if (!this.plain) drawWorldAxes(pen, eye, colours);
   }
 
@@ -265,6 +271,7 @@ export class Drawing {
     const ratio = Math.min(2, devicePixelRatio || 1);
     [root.width, root.height] = [Math.round(width * ratio), Math.round(height * ratio)];
     [eye.width, eye.height] = [width, height];
+    this.covered = this.over().map(placeOf);
     if (!this.byHand) this.fit(false);
     this.paint();
   }

@@ -57,6 +57,8 @@ export function drawForces(
   state: SessionState,
   eye: Eye,
   colours: Palette,
+  /** Where no words may stand. */
+  covered: readonly Place[] = [],
 ): void {
   // Forces belong to the run, not to what an analysis shows in its place.
   const list = session.pose ? [] : arrows(state, session.drawn, session.joint, session.convention);
@@ -75,7 +77,7 @@ export function drawForces(
     return { arrow, tip };
   });
   // Words come last, over all arrows; the joint that is looked at chooses its place first.
-  const taken: Place[] = [];
+  const taken: Place[] = [...covered];
   const marked = ({ arrow }: Drawn): boolean => arrow.label === session.joint;
   for (const one of [...drawn.filter(marked), ...drawn.filter((other) => !marked(other))])
     if (list.length <= MOST_LABELS || marked(one))

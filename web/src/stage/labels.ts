@@ -4,6 +4,14 @@ import type { Point } from "./pen";
 /** Where words stand: left, top, right, bottom. */
 export type Place = [number, number, number, number];
 
+/** Where an element stands in the one that it is placed in. */
+export const placeOf = (it: HTMLElement): Place => [
+  it.offsetLeft,
+  it.offsetTop,
+  it.offsetLeft + it.offsetWidth,
+  it.offsetTop + it.offsetHeight,
+];
+
 /** About the width of a letter by its height. */
 const LETTER_WIDTH = 0.56;
 /** Between the tip of an arrow and its words, CSS pixels. */

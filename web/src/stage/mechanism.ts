@@ -5,6 +5,7 @@ import { add, cross, dot, norm, scale, sub, unit } from "../mechanics/vec";
 import type { Eye } from "./eye";
 import { drawFloor, hull } from "./floor";
 import { drawnJoint } from "./joints";
+import type { Place } from "./labels";
 import { letters, mix, type Paint, type Palette, paint } from "./palette";
 import type { Pen, Point } from "./pen";
 import { type Item, type Shown, THIN } from "./shown";
@@ -187,6 +188,12 @@ function drawnAxes(pen: Pen, shown: Shown, body: number): Item {
   };
   // Its own body does not hide it.
   return { near: eye.nearness(origin) + 30 / eye.perMetre, draw };
+}
+
+/** Where the axes of the world stand, letters included. */
+export function axesCorner({ width, height }: Eye, { size }: Palette): Place {
+  const length = 30 * Math.sqrt(size);
+  return [width - 3.4 * length, height - 3.2 * length, width, height];
 }
 
 /** The axes x, y, z of the world, in the corner of the picture. */

@@ -70,7 +70,7 @@ export class Stage {
     picture?: "drawing" | "viewer",
   ) {
     this.wanted = !session.here && (picture ?? recall("picture")) === "viewer";
-    this.drawing = new Drawing(scene, session, reducedMotion);
+    this.drawing = new Drawing(scene, session, reducedMotion, false, () => [tools.root]);
     hands(session, this.drawing);
     const tools = toolbar(session, this.drawing, () => this.root);
     const views = cameras(session);

@@ -2,7 +2,7 @@
 
 import { api } from "../../api/client";
 import type { ModesAbout } from "../../api/types";
-import { announce, h } from "../../core/dom";
+import { announce, h, uid } from "../../core/dom";
 import { reducedMotion } from "../../core/prefs";
 import { t } from "../../core/texts";
 import { type Placed, placed, swung, visible } from "../../mechanics/pose";
@@ -59,25 +59,35 @@ export class AnalysesTab implements Panel {
       h("p", { class: "help" }, t("Asked of the scene with the numbers that it has now, from its start.")),
       h(
         "div",
-        { class: "row wrap" },
-        this.button(t("Count freedoms"), async (it) => freedomsView(await api.check(JSON.stringify(it)))),
-        this.button(t("Assemble"), async (it) =>
-          assemblyView(await api.analyse<AssemblyResult>("assembly", scene(it))),
+        { class: "analyses" },
+        ...this.analysis(
+          t("Count freedoms"),
+          t("Which rows are independent, and how many ways to move are left."),
+          async (it) => freedomsView(await api.check(JSON.stringify(it))),
         ),
-        this.button(t("Kinematics and driving forces"), async (it) =>
-          kinematicsView(await api.analyse<KinematicsResult>("kinematics", scene(it))),
+        ...this.analysis(
+          t("Assemble"),
+          t("Closes the joints of a roughly placed mechanism: where its bodies are then."),
+          async (it) => assemblyView(await api.analyse<AssemblyResult>("assembly", scene(it))),
         ),
-        this.button(t("Static equilibrium"), async (it) =>
-          this.equilibrium(await api.analyse<EquilibriumResult>("equilibrium", scene(it))),
+        ...this.analysis(
+          t("Kinematics and driving forces"),
+          t("The motion that drivers prescribe, and the forces that it takes."),
+          async (it) => kinematicsView(await api.analyse<KinematicsResult>("kinematics", scene(it))),
         ),
-        this.button(t("Small vibrations"), async (it) => {
-          const about = this.about.value as ModesAbout;
-          const found = await api.analyse<ModesResult>("modes", { ...scene(it), about });
-          return modesView(found, ABOUT[about](), (mode) => this.swing(found.bodies, mode));
-        }),
-        this.about,
-        this.back,
+        ...this.analysis(
+          t("Static equilibrium"),
+          t("Where the mechanism rests near its start, and whether it stays there."),
+          async (it) => this.equilibrium(await api.analyse<EquilibriumResult>("equilibrium", scene(it))),
+        ),
+        ...this.analysis(
+          t("Small vibrations"),
+          t("Frequencies and shapes of the small motions:"),
+          async (it) => this.vibrations(it),
+          this.about,
+        ),
       ),
+      this.back,
       this.result,
     );
     session.on("scene", () => this.pose(undefined));
@@ -85,6 +95,19 @@ export class AnalysesTab implements Panel {
 
   refresh(): void {
     // The results belong to the scene's start, not to the moment that is shown.
+  }
+
+  /** A button and what it answers. */
+  private analysis(
+    label: string,
+    answers: string,
+    analyse: (scene: unknown) => Promise<HTMLElement[]>,
+    ...more: HTMLElement[]
+  ): HTMLElement[] {
+    const button = this.button(label, analyse);
+    const told = h("p", { class: "help", id: uid("answers") }, answers, " ", ...more);
+    button.setAttribute("aria-describedby", told.id);
+    return [button, told];
   }
 
   /** A button that runs an analysis and shows its result. */
@@ -97,6 +120,7 @@ export class AnalysesTab implements Panel {
       analyse(scene)
         .then((parts) => {
           this.result.replaceChildren(h("h3", null, label), ...parts);
+          this.result.scrollIntoView({ block: "start" });
           announce(t("{label}: the result is below.", { label }));
         })
         .catch((error: unknown) => this.result.replaceChildren(problemNotice(error)))
@@ -118,6 +142,12 @@ export class AnalysesTab implements Panel {
     const state = this.session.latest;
     if (state) this.pose(() => placed(state, found.bodies));
     return equilibriumView(found, state?.bodies.map((body) => body.name) ?? []);
+  }
+
+  private async vibrations(scene: unknown): Promise<HTMLElement[]> {
+    const about = this.about.value as ModesAbout;
+    const found = await api.analyse<ModesResult>("modes", { scene, about });
+    return modesView(found, ABOUT[about](), (mode) => this.swing(found.bodies, mode));
   }
 
   private swing(bodies: Placed[], mode: Mode): void {

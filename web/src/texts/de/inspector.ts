@@ -14,6 +14,15 @@ export const inspector = {
   "Kinematics and driving forces": "Kinematik und Antriebskräfte",
   "Static equilibrium": "Statisches Gleichgewicht",
   "Small vibrations": "Kleine Schwingungen",
+  "Which rows are independent, and how many ways to move are left.":
+    "Welche Zeilen unabhängig sind und wie viele Bewegungsmöglichkeiten bleiben.",
+  "Closes the joints of a roughly placed mechanism: where its bodies are then.":
+    "Schließt die Gelenke eines grob hingestellten Mechanismus: wo seine Körper dann sind.",
+  "The motion that drivers prescribe, and the forces that it takes.":
+    "Die Bewegung, die die Antriebe vorgeben, und die Kräfte, die sie braucht.",
+  "Where the mechanism rests near its start, and whether it stays there.":
+    "Wo der Mechanismus in der Nähe seines Starts ruht und ob er dort bleibt.",
+  "Frequencies and shapes of the small motions:": "Frequenzen und Formen der kleinen Bewegungen:",
   "{label}: the result is below.": "{label}: Das Ergebnis steht unten.",
   "Redundant rows:": "Überzählige Zeilen:",
   "No row is redundant.": "Keine Zeile ist überzählig.",
