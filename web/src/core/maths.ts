@@ -1,5 +1,7 @@
 // KaTeX, fetched only when a text holds mathematics. It also writes MathML for screen readers.
 
+import { t } from "./texts";
+
 type Katex = typeof import("katex").default;
 let loading: Promise<Katex> | undefined;
 
@@ -58,6 +60,6 @@ function measure(node: HTMLElement): void {
   if (scrolls) {
     node.tabIndex = 0;
     node.setAttribute("role", "group");
-    node.setAttribute("aria-label", "Formula, scrolls sideways");
+    node.setAttribute("aria-label", t("Formula, scrolls sideways"));
   } else for (const name of ["tabindex", "role", "aria-label"]) node.removeAttribute(name);
 }

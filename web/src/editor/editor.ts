@@ -7,7 +7,7 @@ import { t } from "../core/texts";
 
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
-import { type Meant, meantBy } from "./meant";
+import { inText, type Meant, meantBy } from "./meant";
 import { lineOf, locate } from "./pointer";
 import { suggestions } from "./suggest";
 
@@ -34,10 +34,11 @@ export class SceneEditor {
   /** Ends a check that a newer text has overtaken. */
   private checking = new AbortController();
 
-  /** `changed` hears of each edit, `sound` of a text that the server has checked and can run. */
+  /** `changed` hears of each edit, `sound` of a text that the server has checked and can run, `unsound` of the line of a mistake. */
   constructor(
     private readonly changed: (text: string) => void,
     private readonly sound: (text: string) => void,
+    private readonly unsound: (line: number) => void,
   ) {
     const { area, gutter } = this;
     const completion = suggestions(area, () => area.dispatchEvent(new Event("input")));
@@ -79,6 +80,8 @@ export class SceneEditor {
   }
 
   private mark(lines: number[]): void {
+    const [first] = lines;
+    if (first !== undefined) this.unsound(first);
     for (const [k, child] of [...this.gutter.children].entries())
       child.classList.toggle("is-marked", lines.includes(k + 1));
   }
@@ -114,6 +117,16 @@ export class SceneEditor {
     this.timer = window.setTimeout(() => void this.check(), CHECK_AFTER_MS);
   }
 
+  /** What is wrong with a text, at its place there. */
+  private tell(problem: Problem, text: string): void {
+    const lines = linesOf(problem, text);
+    this.mark(lines);
+    const meant = meantBy(problem, text);
+    const told = inText(problem, lines[0], meant !== undefined);
+    const offers = meant ? [this.offer(meant)] : [];
+    this.result.replaceChildren(problemNotice(told, offers, { open: (pointer) => this.goTo(pointer) }));
+  }
+
   private async check(): Promise<void> {
     this.checking.abort();
     this.checking = new AbortController();
@@ -132,10 +145,8 @@ export class SceneEditor {
       this.sound(text);
     } catch (error) {
       if (signal.aborted) return;
-      if (error instanceof ApiError) this.mark(linesOf(error.problem, text));
-      const meant = error instanceof ApiError ? meantBy(error.problem, text) : undefined;
-      const offers = meant ? [this.offer(meant)] : [];
-      this.result.replaceChildren(problemNotice(error, offers, { open: (pointer) => this.goTo(pointer) }));
+      if (error instanceof ApiError) this.tell(error.problem, text);
+      else this.result.replaceChildren(problemNotice(error));
     }
   }
 }

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { meantBy, nearest } from "./meant";
+import { inText, meantBy, nearest } from "./meant";
 
 const text =
   '{\n  "bodies": [{ "name": "bob", "masss": 1 }],\n  "joints": [{ "type": "revolut", "body_j": "bobb" }]\n}';
@@ -23,6 +23,27 @@ describe("what was meant", () => {
     expect(mended({ title: "", hint, errors: [{ pointer: "#/joints/0/body_j", detail: "" }] })).toBe(
       text.replace("bobb", "bob"),
     );
+  });
+
+  it("is told with the line of the text that is seen, once, and without a terminal", () => {
+    const detail =
+      "bodies[0].masss (line 1, column 17): unknown field `masss`, expected one of `name`, `mass`";
+    const hint = "Compare the place with the JSON Schema of a scene (`triad schema`).";
+    const problem = {
+      title: "Scene syntax",
+      code: "scene-syntax",
+      detail,
+      hint,
+      errors: [{ pointer: "#/bodies/0/masss", detail }],
+    };
+    const told = inText(problem, 2, true);
+    expect(told.detail).toBe(
+      "bodies[0].masss (line 2): unknown field `masss`, expected one of `name`, `mass`",
+    );
+    expect(told.errors?.[0]?.detail).toBe(told.detail);
+    expect(told.hint).toBeUndefined();
+    expect(inText(problem, 2, false).hint).toMatch(/^Ctrl/);
+    expect(inText({ ...problem, code: "unknown-body" }, 2, false).hint).toBe(hint);
   });
 
   it("is not guessed where nothing is near", () => {

@@ -80,7 +80,8 @@ function earned({ verdict, earned, possible, mark }: QuestionVerdict): string {
       return t("{points} points by {name}", { points: points(mark.points), name: mark.by });
     return inClass() ? t("waits for your teacher") : "";
   }
-  if (possible === 0) return "";
+  // What was not judged has no points to tell.
+  if (possible === 0 || verdict === "invalid" || verdict === "waiting") return "";
   return t("{earned} of {possible} points", { earned: points(earned ?? 0), possible: points(possible) });
 }
 

@@ -34,7 +34,7 @@ export class Desk {
         h(
           "section",
           { class: "desk-part" },
-          h("h3", null, t("From the hall")),
+          h("h2", null, t("From the hall")),
           h("div", { class: "row wrap tight" }, this.hands, this.lower),
           this.remarks,
         ),
@@ -66,7 +66,7 @@ export class Desk {
     this.lower.hidden = hands === 0;
     this.votes.hidden = !votes || !this.apart;
     this.votes.replaceChildren(
-      ...(votes && this.apart ? [h("h3", null, t("How they stand; the hall does not see it")), votes] : []),
+      ...(votes && this.apart ? [h("h2", null, t("How they stand; the hall does not see it")), votes] : []),
     );
     this.paintRemarks(remarks);
   }

@@ -55,9 +55,9 @@ export class Slides {
     this.notes = h(
       "section",
       { class: "desk-part" },
-      h("h3", null, t("Notes to this slide")),
+      h("h2", null, t("Notes to this slide")),
       this.text,
-      h("h3", null, t("Next slide")),
+      h("h2", null, t("Next slide")),
       this.next,
     );
     this.text.addEventListener("input", () => {

@@ -8,6 +8,7 @@ import { type Page, setTitle } from "../core/router";
 import { t } from "../core/texts";
 import { SceneEditor } from "../editor/editor";
 import { pretty } from "../editor/pointer";
+import { ONE_BODY, TWO_BODIES } from "../editor/starters";
 import { requestedView } from "../session/requested-view";
 import type { SharedView } from "../session/shared-view";
 import { icon } from "../ui/icons";
@@ -54,6 +55,13 @@ class ScenePage {
     { type: "button", class: "button", hidden: true, onclick: () => this.undoEdits() },
     t("Undo all changes"),
   );
+  /** The text that was there before another beginning was chosen. */
+  private before: string | undefined;
+  private readonly goBack = h(
+    "button",
+    { type: "button", class: "button quiet small", hidden: true, onclick: () => this.begin(this.before) },
+    t("Back to the text before"),
+  );
   private readonly preview = h("input", { type: "checkbox", id: "preview", checked: true });
   private readonly status = h("p", { class: "help", role: "status" });
   private readonly editor: SceneEditor;
@@ -81,6 +89,10 @@ class ScenePage {
       (text) => {
         // What can run is shown at once, at its start; what is already shown stays.
         if (this.preview.checked && text !== this.shownText) this.runText();
+        else if (text === this.shownText) this.status.textContent = "";
+      },
+      (line) => {
+        this.status.textContent = t("Line {line}: see the remark below the text.", { line });
       },
     );
     this.side = this.layout();
@@ -127,8 +139,35 @@ class ScenePage {
         ),
         this.status,
       ),
+      this.subject.own ? this.beginnings() : null,
       this.editor.root,
     );
+  }
+
+  /** With what a scene of one's own may begin. */
+  private beginnings(): HTMLElement {
+    const press = (label: string, text: () => string): HTMLElement =>
+      h("button", { type: "button", class: "button small", onclick: () => this.begin(text()) }, label);
+    return h(
+      "div",
+      { class: "row wrap tight", role: "group", "aria-label": t("Begin anew with") },
+      h("span", null, t("Begin anew with")),
+      press(t("one body"), () => pretty(ONE_BODY)),
+      press(t("two bodies and their joints"), () => pretty(TWO_BODIES)),
+      press(t("a pendulum"), () => this.original),
+      this.goBack,
+    );
+  }
+
+  /** Puts a text in the place of the one that is there, which can be had back. */
+  private begin(text: string | undefined): void {
+    if (text === undefined) return;
+    const [before, back] = [this.editor.text(), text === this.before];
+    this.before = back ? undefined : before;
+    this.goBack.hidden = back;
+    this.editor.set(text);
+    this.edited(text);
+    this.runText();
   }
 
   private async load(): Promise<void> {

@@ -2,13 +2,11 @@
 
 import type { Camera, Scene, SessionState, Vec3 } from "../api/types";
 import { h } from "../core/dom";
-import { num, seconds } from "../core/format";
-import { t } from "../core/texts";
 import { type Arrow, arrows } from "../mechanics/forces";
 import { add, dot, norm, scale, unit } from "../mechanics/vec";
 import type { Watched } from "../session/watched";
 import { Beside } from "./beside";
-import { circle, outline, pointsOf } from "./extent";
+import { circle, outline, pointsOf, soon } from "./extent";
 import { type Box, boxOf, Eye } from "./eye";
 import { drawForces } from "./forces-picture";
 import { type Place, placeOf } from "./labels";
@@ -18,6 +16,7 @@ import { CanvasPen, type Pen, type Point, SvgPen } from "./pen";
 import { drawPull } from "./pull-picture";
 import type { Shown } from "./shown";
 import { inWorld, middleOf, type Parts, partsOf, planeOf } from "./solids";
+import { inWords } from "./words";
 
 /** Where one reaches for a joint or a body, CSS pixels about it; fingers are thicker than this. */
 const REACH = 14;
@@ -25,6 +24,8 @@ const REACH = 14;
 const SWEEP = 2;
 /** The picture is fitted anew where it would become this many times as large. */
 const WORTH_FITTING = 1.15;
+/** What leaves the picture is followed to where it will be in so many seconds of the run. */
+const AHEAD = 0.8;
 /** How long the picture takes to a new fit, ms. */
 const EASE_MS = 450;
 /** Moments of a run at which it is asked where its parts are. */
@@ -124,10 +125,10 @@ export class Drawing {
     if (box) this.frame(box, slowly);
   }
 
-  private frame(box: Box, slowly: boolean): void {
+  private frame(box: Box, slowly: boolean, leaving = false): void {
     const before: [number, Point] = [this.eye.perMetre, [...this.eye.middle]];
     this.eye.fit(box, ABOVE, BELOW);
-    this.floor = this.floorUnder();
+    this.floor = this.floorUnder(leaving);
     if (!slowly || this.still()) {
       this.easing = undefined;
       return;
@@ -286,22 +287,26 @@ export class Drawing {
     eye.middle = [between(easing.from[1][0], easing.to[1][0]), between(easing.from[1][1], easing.to[1][1])];
     this.paint();
     if (part < 1) requestAnimationFrame(() => this.ease());
-    else this.easing = undefined;
+    else {
+      this.easing = undefined;
+      // It may have gone on meanwhile.
+      if (this.state) this.keepInSight(this.state);
+    }
   }
 
-  /** Fits the picture when the run has shown where it goes, and again where a body leaves it. */
+  /** Fits the picture when the run has shown where it goes, and again where a part leaves it. */
   private keepInSight(state: SessionState): void {
-    if (this.easing) return;
-    const { eye } = this;
-    const out = state.bodies.some((body) => {
-      const [x, y] = eye.project(body.position);
+    const { eye, parts } = this;
+    if (this.easing || !parts) return;
+    const out = pointsOf(parts, state).some((part) => {
+      const [x, y] = eye.project(part);
       return Number.isFinite(x + y) && (x < 0 || y < 0 || x > eye.width || y > eye.height);
     });
     if (!out && (this.swept || !this.known)) return;
-    const box = this.sweep();
+    const box = this.sweep(out);
     if (!box) return;
     this.swept ||= this.known;
-    if (out || eye.scaleOf(box, ABOVE, BELOW) > WORTH_FITTING * eye.perMetre) this.frame(box, true);
+    if (out || eye.scaleOf(box, ABOVE, BELOW) > WORTH_FITTING * eye.perMetre) this.frame(box, true, out);
   }
 
   /** The run has been seen for long enough to know where it goes. */
@@ -318,15 +323,16 @@ export class Drawing {
   }
 
   /** What the motion has covered so far, in the plane of the picture. Before it is known: where it could swing to. */
-  private sweep(): Box | undefined {
+  private sweep(leaving = false): Box | undefined {
     const { parts, state, eye, session, known } = this;
     if (!parts || !state) return undefined;
     const last = session.latest?.time ?? 0;
-    const count = known ? SWEEP_MOMENTS : 1;
+    const count = known || leaving ? SWEEP_MOMENTS : 1;
     const moments = Array.from({ length: count }, (_, k) =>
-      known ? (session.moment((last * k) / (count - 1)) ?? state) : state,
+      count > 1 ? (session.moment((last * k) / (count - 1)) ?? state) : state,
     );
-    const points = [state, ...moments].flatMap((moment) => outline(parts, moment, eye));
+    const seen = leaving && session.moving ? [state, soon(state, AHEAD), ...moments] : [state, ...moments];
+    const points = seen.flatMap((moment) => outline(parts, moment, eye));
     const fixed = this.grounds(parts, state).map((p) => eye.flat(p));
     if (!known && fixed.length === 1 && !this.turnsUpright()) points.push(...circle(fixed, points));
     points.push(...this.tips(moments).map((p) => eye.flat(p)));
@@ -355,10 +361,11 @@ export class Drawing {
   }
 
   /** Height of the floor: below all that is seen, and below where what hangs may swing. */
-  private floorUnder(): number | undefined {
+  private floorUnder(leaving: boolean): number | undefined {
     const { parts, state, eye, session } = this;
     if (!parts || !state || !this.scene?.gravity?.some((g) => g !== 0)) return undefined;
     const seen = [state, ...session.past.all.slice(0, 1), ...(session.latest ? [session.latest] : [])];
+    if (leaving) seen.push(soon(state, AHEAD));
     const points = seen.flatMap((moment) => pointsOf(parts, moment));
     const fixed = this.grounds(parts, state);
     // A mechanism that hangs may swing as far below its joints as it reaches.
@@ -384,21 +391,7 @@ export class Drawing {
     const said = this.root.hasAttribute("aria-label");
     if (said && this.session.moving && now - this.toldAt < TELL_MS) return;
     this.toldAt = now;
-    const bodies = state.bodies.slice(0, 4).map((body) =>
-      t("{name} at {position} m", {
-        name: body.name,
-        position: body.position.map((x) => num(x, 3)).join(", "),
-      }),
-    );
-    const more =
-      state.bodies.length > 4
-        ? `, ${t("and {n} more body | and {n} more bodies", { n: state.bodies.length - 4 })}`
-        : "";
-    const label = t("Drawing of the mechanism at {time}: {bodies}{more}.", {
-      time: seconds(state.time),
-      bodies: bodies.join("; "),
-      more,
-    });
+    const label = inWords(state);
     if (this.root.getAttribute("aria-label") !== label) this.root.setAttribute("aria-label", label);
   }
 }

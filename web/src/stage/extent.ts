@@ -1,6 +1,7 @@
 // How far a mechanism reaches.
 
 import type { SessionState, Vec3 } from "../api/types";
+import { add, scale } from "../mechanics/vec";
 import type { Eye } from "./eye";
 import type { Point } from "./pen";
 import { inWorld, type Parts, spanned } from "./solids";
@@ -26,6 +27,18 @@ export function pointsOf(parts: Parts, state: SessionState): Vec3[] {
     ...parts.solids.flatMap((solid) => spanned(solid).map((point) => inWorld(state, solid.body, point))),
     ...[...parts.joints, ...parts.markers].map((one) => inWorld(state, one.body, one.point)),
   ];
+}
+
+/** Where bodies will be in so many seconds if nothing changes how they move. */
+export function soon(state: SessionState, seconds: number): SessionState {
+  const bodies = state.bodies.map((body) => ({
+    ...body,
+    position: add(
+      body.position,
+      add(scale(body.velocity, seconds), scale(body.acceleration, 0.5 * seconds * seconds)),
+    ),
+  }));
+  return { ...state, bodies };
 }
 
 /** Mechanisms swing about their ground: the circle about it that holds all points. */

@@ -55,7 +55,8 @@ export function problemNotice(error: unknown, actions: Action[] = [], link?: Poi
             ),
           )
         : null,
-      problem.trace_id
+      // It helps whoever runs the server to find what failed there.
+      problem.trace_id && (problem.status ?? 500) >= 500
         ? h("p", { class: "notice-trace" }, t("Trace {trace_id}", { trace_id: problem.trace_id }))
         : null,
     ),

@@ -65,6 +65,7 @@ export const frame = {
   "this page was built without the engine": "diese Seite wurde ohne das Rechenwerk gebaut",
   "the engine could not be fetched: {status}": "das Rechenwerk konnte nicht geladen werden: {status}",
   Body: "Körper",
+  "Formula, scrolls sideways": "Formel, lässt sich seitwärts rollen",
   Value: "Wert",
   "Taylor series": "Taylorreihe",
   Integrator: "Integrator",

@@ -319,6 +319,15 @@ export const learning = {
   "There is no such scene": "Diese Szene gibt es nicht",
   "The scene could not be loaded": "Die Szene konnte nicht geladen werden",
   "Changed, not run yet.": "Geändert, noch nicht gelaufen.",
+  "Begin anew with": "Neu beginnen mit",
+  "one body": "einem Körper",
+  "two bodies and their joints": "zwei Körpern und ihren Gelenken",
+  "a pendulum": "einem Pendel",
+  "Back to the text before": "Zurück zum Text davor",
+  "Line {line}: see the remark below the text.": "Zeile {line}: siehe die Bemerkung unter dem Text.",
+  "line {line}": "Zeile {line}",
+  "Ctrl and the space bar list the words that fit at the cursor.":
+    "Strg und die Leertaste zeigen die Wörter, die an der Stelle passen.",
   "The text is not JSON yet: see the remark below it.":
     "Der Text ist noch kein JSON: siehe die Anmerkung darunter.",
   "Mechanisms without a lesson. Point at one to see it move; open it to run it, change its text and run it again.":
