@@ -49,7 +49,7 @@ fn nothing_yet(title: &str, command: &str) -> String {
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" \
          content=\"width=device-width\"><title>Triad: {title}</title><style>:root{{color-scheme:light dark}}\
          body{{font:16px/1.6 system-ui,sans-serif;max-width:40rem;margin:3rem auto;padding:0 1rem}}\
-         code{{font-size:1rem}}</style><h1>{title}</h1><p>Nothing has been measured on this machine yet. It takes \
+         code{{font-size:1rem}}pre{{white-space:pre-wrap;overflow-wrap:anywhere}}</style><h1>{title}</h1><p>Nothing has been measured on this machine yet. It takes \
          about a minute; run this where the workbench was started, and reload the page:</p>\
          <pre><code>{command}</code></pre><p><a href=\"/\">Back to the lessons</a></p></html>"
     )

@@ -36,10 +36,11 @@ use worker::{Clock, Worker};
 const QUEUE: usize = 32;
 
 /// Of what a session keeps, in sixteenths: samples take six and states half of that, as many of each; the numbers for the
-/// page's drawing one, and three where the older ones are told in brief; recordings for the viewer three.
+/// page's drawing one, and three where the older ones are told in brief; recordings for the viewer two, and one likewise.
 const OF_SAMPLES: usize = 6;
 const OF_TRACK: usize = 1;
-const OF_RECORDING: usize = 3;
+const OF_RECORDING: usize = 2;
+const OF_BRIEF: usize = 1;
 
 /// What the sessions of a server share.
 #[derive(Debug, Clone, Default)]
@@ -139,8 +140,8 @@ impl Session {
         let [hub, track] = [OF_RECORDING, OF_TRACK]
             .map(|part| Arc::new(Hub::new(limits.kept_bytes(part), shared.kept.part())));
         let [hub_of_recording, hub_of_track] = [&hub, &track].map(Arc::clone);
-        let redrawn = limits.kept_bytes(OF_RECORDING) / 2;
-        let recording = Recording::new(recording, run.samples(), hub_of_recording, hub_of_track, redrawn);
+        let brief = limits.kept_bytes(OF_BRIEF);
+        let recording = Recording::new(recording, run.samples(), hub_of_recording, hub_of_track, brief);
         let signals = Arc::new(Signals::default());
         let (sender, state) =
             watch::channel(Arc::new(run.state(recording.streamed(), crate::problem::trace_id)));

@@ -30,9 +30,12 @@ pub(crate) struct Recording {
     /// How many of all samples taken are encoded.
     taken: u64,
     encoded: u64,
-    /// Bytes of arrows that were drawn again, and of how many the recording is written anew.
+    /// Bytes of arrows that were drawn again.
     redrawn: usize,
+    /// Bytes that what is told in brief may take, and of arrows that were drawn again before the recording is written anew.
     limit: usize,
+    /// Of so many samples one is told in brief.
+    told_every: usize,
     /// When blocks were last made.
     encoded_at: Instant,
     /// When frames were last packed.
@@ -53,8 +56,8 @@ const ENTITIES_AT_FULL_RATE: usize = 16;
 const MAX_WAIT: Duration = Duration::from_millis(500);
 
 impl Recording {
-    /// The recording called `id` of samples; where arrows that were drawn again take more than `limit` bytes, it is written anew
-    /// without the old ones.
+    /// The recording called `id` of samples. What the hub forgets is told in at most about `limit` bytes to who comes later; where
+    /// arrows that were drawn again take more, the recording is written anew without the old ones.
     pub(crate) fn new(id: &str, samples: &Samples, hub: Arc<Hub>, track: Arc<Hub>, limit: usize) -> Self {
         let description = samples.description();
         let entities = description.bodies.len() + 2 * description.joints.len() + 2;
@@ -62,7 +65,7 @@ impl Recording {
         Self {
             encoded_at: Instant::now(),
             packed_at: Instant::now(),
-            pace: TICK.saturating_mul(ticks).min(MAX_WAIT),
+            pace: TICK.saturating_mul(ticks).clamp(TRACK_PACE, MAX_WAIT),
             track: Track::new(track),
             hub,
             id: id.to_owned(),
@@ -75,6 +78,7 @@ impl Recording {
             encoded: 0,
             redrawn: 0,
             limit,
+            told_every: 1,
         }
     }
 
@@ -116,13 +120,11 @@ impl Recording {
             recorder.look_from(self.camera).map_err(unrecorded)?;
         }
         if !drawn_alike {
-            let before = self.hub.bytes();
             let sent = samples.among_first(self.taken);
             recorder.redraw(samples.arrows().clone(), scale, sent).map_err(unrecorded)?;
-            self.send()?;
-            self.redrawn += self.hub.bytes().saturating_sub(before);
+            self.redrawn += self.send(samples)?;
         } else if !looked_at_alike {
-            self.send()?;
+            self.send(samples)?;
         }
         Ok(())
     }
@@ -142,12 +144,7 @@ impl Recording {
         let recorder = match &mut self.recorder {
             Some(recorder) => recorder,
             empty => {
-                let id = format!("{}-{}", self.id, self.generation);
-                let mut new = Recorder::to_blocks(&id, samples.description().clone()).map_err(unrecorded)?;
-                new.redraw(samples.arrows().clone(), samples.description().scale, &[]).map_err(unrecorded)?;
-                if samples.camera() != Camera::default() {
-                    new.look_from(samples.camera()).map_err(unrecorded)?;
-                }
+                let new = begun(&self.id, self.generation, samples)?;
                 // A block of its own: the viewer has the layout before any data.
                 if let Some(block) = new.block().map_err(unrecorded)? {
                     self.hub.push(block);
@@ -159,17 +156,35 @@ impl Recording {
         recorder.write(waiting).map_err(unrecorded)?;
         self.encoded += waiting.len() as u64;
         self.taken = samples.recorded();
-        self.send()
+        self.send(samples).map(|_| ())
     }
 
-    /// Hands out what the recorder has written.
-    fn send(&mut self) -> Result<(), Problem> {
-        if let Some(recorder) = &self.recorder
-            && let Some(block) = recorder.block().map_err(unrecorded)?
-        {
-            self.hub.push(block);
+    /// Hands out what the recorder has written, and says how many bytes that is.
+    fn send(&mut self, samples: &Samples) -> Result<usize, Problem> {
+        let Some(recorder) = &self.recorder else { return Ok(0) };
+        let Some(block) = recorder.block().map_err(unrecorded)? else { return Ok(0) };
+        if self.hub.is_full_with(block.len()) {
+            let brief = self.brief(samples)?;
+            self.hub.shorten(brief);
         }
-        Ok(())
+        let bytes = block.len();
+        self.hub.push(block);
+        Ok(bytes)
+    }
+
+    /// The whole recording so far as one block, in a few large messages; of its samples as many as fit.
+    fn brief(&mut self, samples: &Samples) -> Result<Vec<u8>, Problem> {
+        loop {
+            let told = samples.among_first(self.taken);
+            let told: Vec<_> = told.iter().step_by(self.told_every).cloned().collect();
+            let mut recorder = begun(&self.id, self.generation, samples)?;
+            recorder.write(&told).map_err(unrecorded)?;
+            let block = recorder.block().map_err(unrecorded)?.unwrap_or_default();
+            if block.len() <= self.limit || told.len() <= 1 {
+                return Ok(block);
+            }
+            self.told_every *= 2;
+        }
     }
 
     /// Starts another recording of the samples that there are.
@@ -179,6 +194,7 @@ impl Recording {
         self.taken = 0;
         self.encoded = 0;
         self.redrawn = 0;
+        self.told_every = 1;
         self.hub.restart();
     }
 
@@ -186,6 +202,18 @@ impl Recording {
     pub(crate) fn streamed(&self) -> Streamed {
         Streamed { frames_encoded: self.encoded, watchers: self.hub.watchers() + self.track.watchers() }
     }
+}
+
+/// A recording without samples yet that looks as it is wanted.
+fn begun(id: &str, generation: u64, samples: &Samples) -> Result<Recorder, Problem> {
+    let (id, description) = (format!("{id}-{generation}"), samples.description().clone());
+    let scale = description.scale;
+    let mut new = Recorder::to_blocks(&id, description).map_err(unrecorded)?;
+    new.redraw(samples.arrows().clone(), scale, &[]).map_err(unrecorded)?;
+    if samples.camera() != Camera::default() {
+        new.look_from(samples.camera()).map_err(unrecorded)?;
+    }
+    Ok(new)
 }
 
 fn unrecorded(error: RecordError) -> Problem {
@@ -198,12 +226,65 @@ mod tests {
 
     use rerun::external::re_log_encoding::DecoderApp;
     use rerun::external::re_log_types::StoreKind;
-    use rerun::log::LogMsg;
+    use rerun::log::{Chunk, LogMsg};
     use triad_engine::run::Simulation;
     use triad_engine::scene::catalogue;
+    use triad_session::change::SceneChange;
     use triad_session::picture::describe;
+    use triad_session::{Run, SceneSource};
 
     use super::*;
+    use crate::stream::{Delivery, TIMELINE, Total};
+
+    /// At which times the bodies are told in these blocks, s.
+    fn told(blocks: &[impl AsRef<[u8]>]) -> Vec<f64> {
+        let mut times = Vec::new();
+        for block in blocks {
+            for message in DecoderApp::decode_lazy(block.as_ref()) {
+                let LogMsg::ArrowMsg(_, chunk) = message.expect("whole") else { continue };
+                let chunk = Chunk::from_arrow_msg(&chunk).expect("a chunk");
+                let of_bodies = chunk.entity_path().to_string().starts_with("/world/bodies");
+                let found = chunk.timelines().get(&TIMELINE.into()).filter(|_| of_bodies);
+                times
+                    .extend(found.into_iter().flat_map(|found| found.times_raw()).map(|at| *at as f64 / 1e9));
+            }
+        }
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+
+    #[test]
+    fn who_opens_the_viewer_late_has_the_whole_run_with_fewer_samples() {
+        let total = Total::default();
+        let [hub, track] = [400_000, 1000].map(|bytes| Arc::new(Hub::new(bytes, total.part())));
+        let scene = catalogue::scene("simple-pendulum").expect("built in");
+        let source = SceneSource::Builtin("simple-pendulum".into());
+        let mut run =
+            Run::start("run".into(), scene, &SceneChange::default(), source, 1 << 30).expect("a pendulum");
+        let mut recording = Recording::new("run", run.samples(), Arc::clone(&hub), track, 200_000);
+        let mut first = hub.watch();
+        let mut seen = Vec::new();
+        for k in 1..=200 {
+            while run.advance(0.05 * f64::from(k)).expect("runs") {}
+            recording.encode(run.samples()).expect("encoded");
+            if let Some(Delivery::Blocks(blocks)) = first.poll() {
+                seen.extend(blocks);
+            }
+        }
+        // The viewer counts nanoseconds.
+        let mut all: Vec<f64> =
+            run.samples().after(0).iter().map(|sample| (sample.time * 1e9).round() / 1e9).collect();
+        all.dedup();
+        assert_eq!(told(&seen), all, "who watched from the beginning has every sample");
+        let Some(Delivery::Blocks(blocks)) = hub.watch().poll() else { panic!("a recording") };
+        let late = told(&blocks);
+        let sent: usize = blocks.iter().map(|block| block.len()).sum();
+        assert!(hub.bytes() == sent && sent < 700_000, "{sent} bytes");
+        assert_eq!((late.first(), late.last()), (Some(&0.0), Some(&10.0)));
+        let gap = late.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        assert!(gap < 0.2 && late.len() < all.len(), "{gap} s apart, {} of {}", late.len(), all.len());
+    }
 
     /// A viewer that has data and no layout yet lays them out by itself.
     #[test]

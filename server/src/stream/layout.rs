@@ -3,8 +3,9 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use re_sdk_types::blueprint::archetypes::EyeControls3D;
-use re_sdk_types::blueprint::components::{LoopMode, PanelState, PlayState};
+use re_sdk_types::blueprint::archetypes::{Background, EyeControls3D};
+use re_sdk_types::blueprint::components::{BackgroundKind, LoopMode, PanelState, PlayState};
+use re_sdk_types::components::Color;
 use rerun::blueprint::{
     Blueprint, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial2DView, Spatial3DView,
     TimePanel, TimeSeriesView, Vertical,
@@ -20,6 +21,10 @@ use triad_session::picture::SceneDescription;
 use super::geometry::single;
 use super::{APPLICATION, TIMELINE};
 
+/// What is behind the mechanism: a calm grey, as the viewer's own colours would be the strongest of the page. One recording is
+/// seen in light and dark pages.
+const BACKGROUND: [u8; 3] = [201, 209, 218];
+
 /// Sends the layout, and makes the viewer use it.
 pub(super) fn send(
     recording: &RecordingStream,
@@ -33,21 +38,27 @@ pub(super) fn send(
         message.set_store_id(id.clone());
     }
     let now = TimePoint::from([(Timeline::new_sequence("blueprint"), 0)]);
-    let camera = Chunk::builder(layout.camera.as_str())
-        .with_archetype(RowId::new(), now, &eye(description, from))
-        .build()?
-        .to_arrow_msg()?;
-    messages.push(LogMsg::ArrowMsg(id.clone(), camera));
+    let eye = eye(description, from);
+    let [r, g, b] = BACKGROUND;
+    let background = Background::new(BackgroundKind::SolidColor).with_color(Color::from_rgb(r, g, b));
+    let of_view = |what: &str| Chunk::builder(format!("{}/{what}", layout.view));
+    let chunks = [
+        of_view("EyeControls3D").with_archetype(RowId::new(), now.clone(), &eye),
+        of_view("Background").with_archetype(RowId::new(), now, &background),
+    ];
+    for chunk in chunks {
+        messages.push(LogMsg::ArrowMsg(id.clone(), chunk.build()?.to_arrow_msg()?));
+    }
     let activation = BlueprintActivationCommand { blueprint_id: id, make_active: true, make_default: true };
     recording.send_blueprint(messages, activation);
     Ok(())
 }
 
-/// The layout as messages, all but the camera.
+/// The layout as messages, all but what the mechanism's view looks like.
 struct Layout {
     messages: Vec<LogMsg>,
-    /// Where the camera of the mechanism's view is written.
-    camera: String,
+    /// Where the mechanism's view is described.
+    view: String,
 }
 
 /// Two layouts that differ in the names of their views alone, made once: the library writes a layout only into a
@@ -68,8 +79,8 @@ impl Layout {
     fn new() -> RecordingStreamResult<Self> {
         let mechanism = Spatial3DView::new("Mechanism").with_origin("/world").with_contents(["/world/**"]);
         let mechanism = ContainerLike::from(mechanism);
-        let camera = match &mechanism {
-            ContainerLike::View(view) => format!("{}/EyeControls3D", view.blueprint_path()),
+        let view = match &mechanism {
+            ContainerLike::View(view) => view.blueprint_path().to_string(),
             _ => String::new(),
         };
         let (scratch, written) =
@@ -81,7 +92,7 @@ impl Layout {
         let messages = written.take().into_iter().filter(is_layout).collect();
         // A stream and its place in memory hold each other: without this, both stay, with their threads.
         scratch.disconnect();
-        Ok(Self { messages, camera })
+        Ok(Self { messages, view })
     }
 }
 
