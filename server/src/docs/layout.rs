@@ -25,9 +25,12 @@ pub(super) fn page(
     let back = home.map_or_else(String::new, |home| format!("<a href=\"{home}\">Workbench</a>"));
     // The mark says nothing that the name beside it does not.
     let mark = MARK.trim().replacen("<svg ", "<svg aria-hidden=\"true\" width=\"28\" height=\"28\" ", 1);
+    // Written into the page: copied to any place it asks for nothing else.
+    let icon = MARK.trim().replace('"', "'").replace('#', "%23");
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
-         content=\"width=device-width, initial-scale=1\">\n<title>{title} · Triad</title>\n<link rel=\"stylesheet\" \
+         content=\"width=device-width, initial-scale=1\">\n<title>{title} · Triad</title>\n<link rel=\"icon\" \
+         href=\"data:image/svg+xml,{icon}\">\n<link rel=\"stylesheet\" \
          href=\"tokens.css\">\n<link rel=\"stylesheet\" href=\"docs.css\">\n<script src=\"docs.js\"></script>\n</head>\n\
          <body>\n<a class=\"skip\" href=\"#text\">To the text</a>\n<header>\n<a class=\"name\" href=\"index.html\">{mark}Triad</a>\n\
          <search><label for=\"query\">Search</label><input id=\"query\" type=\"search\" autocomplete=\"off\" spellcheck=\"false\" \

@@ -4,6 +4,7 @@ import { isNone } from "../api/numbers";
 import type { Camera } from "../api/types";
 import { pathOf } from "../core/address";
 import { announce, h } from "../core/dom";
+import { reducedMotion } from "../core/prefs";
 import { t } from "../core/texts";
 import type { Drawn } from "../mechanics/forces";
 import { icon } from "../ui/icons";
@@ -38,7 +39,9 @@ export function shareButton(shared: Shared): HTMLElement {
 }
 
 async function copy(shared: Shared): Promise<void> {
-  const link = await linkTo(shared.own?.path ?? pathOf(location), viewOf(shared));
+  const { moving } = shared.session;
+  const seen = { ...viewOf(shared), ...(moving ? { plays: true } : {}) };
+  const link = await linkTo(shared.own?.path ?? pathOf(location), seen);
   if (link.length > MAX_LENGTH) {
     banner(
       t("This scene is too large for a link ({link} kB). Save its file and send that.", {
@@ -56,7 +59,9 @@ async function copy(shared: Shared): Promise<void> {
         ? t(
             "The link is copied. This run was changed on its way; the link runs it with these numbers from the start.",
           )
-        : t("The link to this view is copied: whoever opens it sees the same."),
+        : moving
+          ? t("The link to this view is copied: whoever opens it sees the run go on from here.")
+          : t("The link to this view is copied: whoever opens it sees the same."),
       { label: t("Fine"), run: () => banner(null) },
     );
     setTimeout(() => banner(null), GLANCE_MS);
@@ -92,6 +97,8 @@ export async function restore(session: Session, seen: SharedView): Promise<void>
   if (seen.camera && CAMERAS.includes(seen.camera as Camera) && seen.camera !== session.camera)
     session.lookFrom(seen.camera as Camera);
   if (seen.time) await session.goTo(seen.time);
+  // What waits for something, a prediction, is not asked for it unbidden.
+  if (seen.plays && !session.held && !reducedMotion()) await session.play();
 }
 
 const CAMERAS: Camera[] = ["corner", "front", "side", "above"];

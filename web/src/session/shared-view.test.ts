@@ -6,6 +6,7 @@ describe("a link", () => {
     const seen: SharedView = {
       numbers: { values: { mass: 2.5 }, places: { "/simulation/stabilization": { kind: "projection" } } },
       time: 1.25,
+      plays: true,
       joint: "pin “A”",
       panel: "multipliers",
       picture: "drawing",
@@ -25,6 +26,7 @@ describe("a link", () => {
       joint: 7,
       numbers: { values: { mass: "x" }, places: {} },
       picture: "evil",
+      plays: "yes",
     } as unknown as SharedView);
     expect(await unpack(forged)).toEqual({});
   });

@@ -10,6 +10,8 @@ export interface SharedView {
   time?: number;
   /** The time lies behind the newest one. */
   back?: boolean;
+  /** The run goes on from there by itself. */
+  plays?: boolean;
   joint?: string;
   panel?: string;
   picture?: "drawing" | "viewer";
@@ -76,6 +78,7 @@ export function parseView(value: unknown): SharedView | undefined {
   for (const key of ["joint", "panel", "drawn", "told", "scene", "camera"] as const)
     if (typeof given[key] === "string") seen[key] = given[key];
   if (given.back === true) seen.back = true;
+  if (given.plays === true) seen.plays = true;
   if (given.picture === "drawing" || given.picture === "viewer") seen.picture = given.picture;
   if (typeof given.time === "number" && Number.isFinite(given.time) && given.time >= 0)
     seen.time = given.time;

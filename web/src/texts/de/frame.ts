@@ -129,6 +129,8 @@ export const frame = {
   "The link to this view is copied.": "Der Link zu dieser Ansicht ist kopiert.",
   "The link is copied. This run was changed on its way; the link runs it with these numbers from the start.":
     "Der Link ist kopiert. Dieser Lauf wurde unterwegs geändert; der Link startet ihn mit diesen Zahlen von Anfang an.",
+  "The link to this view is copied: whoever opens it sees the run go on from here.":
+    "Der Link zu dieser Ansicht ist kopiert: Wer ihn öffnet, sieht den Lauf von hier weitergehen.",
   "The link to this view is copied: whoever opens it sees the same.":
     "Der Link zu dieser Ansicht ist kopiert: Wer ihn öffnet, sieht dasselbe.",
   "The browser does not let this page copy. The link stands in the address bar now.":
