@@ -76,6 +76,8 @@ async function byKeyboard() {
   await page.keyboard.press("Escape");
   await noSeriousFaults(page, "lesson 2");
   const right = await pendulum(page, "Grace Hopper");
+  const names = await page.locator(".question input:not([type=radio])").evaluateAll((fields) => fields.map((field) => field.getAttribute("aria-label")));
+  assert(names.length > 4 && new Set(names).size === names.length && names.every((name) => /^Question \d+: /.test(name)), JSON.stringify(names));
   const unit = async (id, value) => {
     if (await page.locator(`#q-${id}-unit`).count() === 0) return;
     await tabTo(page, `#q-${id}-unit`);
@@ -211,6 +213,13 @@ async function lecture() {
   await until("roaming", () => phone.locator(".lecture-head .lead").innerText(), (text) => /on your own/.test(text));
   await phone.getByRole("button", { name: "Back to the lecture" }).click();
   await until("back with the presenter", () => clock(phone), (time) => time === 0.04);
+  await phone.getByRole("button", { name: "Look around" }).click();
+  await until("roaming by a button", () => phone.locator(".lecture-head .lead").innerText(), (text) => /on your own/.test(text));
+  await presenter.locator(".timeline").fill("0.06");
+  await presenter.getByText("1 looks around alone", { exact: false }).waitFor({ state: "attached" });
+  assert.equal(await clock(phone), 0.04, "what is looked at alone stays");
+  await phone.getByRole("button", { name: "Back to the lecture" }).click();
+  await until("back again", () => clock(phone), (time) => time === 0.06);
   await phone.screenshot({ path: join(pictures, "workbench-follower.png"), fullPage: true });
   const width = await phone.evaluate(() => document.documentElement.scrollWidth);
   assert(width <= 390, `the follower's page is ${width} px wide`);

@@ -87,6 +87,7 @@ class LecturePage {
     icon("live"),
     t("Back to the lecture"),
   );
+  private readonly alone = h("button", { type: "button", class: "button", hidden: true }, t("Look around"));
   private readonly own = h("a", { class: "button", hidden: true, href: "/" }, t("Try it yourself"));
   private readonly bench = h("section", { class: "bench", "aria-label": t("Mechanism") });
   private readonly votes: ReturnType<typeof ballot>;
@@ -99,7 +100,7 @@ class LecturePage {
       "header",
       { class: "lecture-head" },
       h("div", null, h("p", { class: "lesson-kicker" }, t("Room {code}", { code })), this.title, this.status),
-      h("div", { class: "row wrap" }, this.back, this.own),
+      h("div", { class: "row wrap" }, this.back, this.alone, this.own),
     );
     this.root = h("div", null, head, this.votes.root, this.bench);
     api
@@ -128,6 +129,8 @@ class LecturePage {
     };
     own.paint();
     this.back.onclick = () => follower.comeBackToLecture();
+    // From the moment that is shown: it stays until the follower comes back.
+    this.alone.onclick = () => void follower.pause();
     follower.on("lecture", paint);
     follower.on("scene", paint);
     void follower.start();
@@ -149,6 +152,7 @@ class LecturePage {
     if (lecture?.title) setTitle(lecture.title);
     setText(this.status, statusOf(follower));
     this.back.hidden = !roaming || over;
+    this.alone.hidden = roaming || over || !lecture?.source;
     void ownLink(follower).then((href) => {
       this.own.hidden = href === undefined;
       if (href) this.own.href = href;

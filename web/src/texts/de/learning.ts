@@ -283,6 +283,7 @@ export const learning = {
   "Code of the room": "Code des Raums",
   "Type the code that your instructor shows. No account is needed.":
     "Tippe den Code ein, den deine Lehrkraft zeigt. Ein Konto braucht es nicht.",
+  "Look around": "Selbst umsehen",
   "Back to the lecture": "Zurück zur Vorlesung",
   "Try it yourself": "Selbst versuchen",
   "Room {code}": "Raum {code}",
