@@ -117,6 +117,18 @@ def test_scenes_are_names_files_texts_and_dicts(tmp_path):
     assert "bodies" in triad.scene_schema()["properties"]
 
 
+def test_one_output_and_numbers_of_numpy_are_taken():
+    r = triad.run("simple-pendulum", until=np.int64(1), every=np.float32(0.5), outputs="energy", most_steps=np.int64(1000))
+    assert r.columns == ["energy"] and len(r) == 3
+
+
+def test_what_is_printed_is_a_line():
+    r = triad.run("bricard", until=0.1)
+    for thing in (r, r.body(r.bodies[0]), r.reactions(r.joints[0]), r.errors):
+        assert "\n" not in repr(thing) and repr(thing).startswith("<triad.")
+    assert "not all unique" in repr(r.reactions(r.joints[0]))
+
+
 def test_verification_compares_with_a_second_solution():
     r = triad.run("simple-pendulum", until=0.5, verify=True)
     assert r.verified["found"]["integrator"] == "dop853" and 0 < r.verified["found"]["position"] < 1e-7

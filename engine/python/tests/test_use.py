@@ -117,8 +117,19 @@ def test_a_sweep_names_the_runs_that_stopped():
     found = triad.sweep("simple-pendulum", {"/bodies/0/mass": triad.grid(-1, 1, 3)}, until=0.1)
     assert [stop["run"] for stop in found.stopped] == [0, 1] and found.stopped[0]["hint"]
     assert np.isnan(found.outputs[0]).all() and not np.isnan(found.outputs[2]).any()
-    with pytest.raises(triad.TriadError, match="cannot vary"):
-        triad.sweep("simple-pendulum", {"/bodies/0/mass": (1, 2)})
+    for wrong in ((1, 2), [1, 2, 4], np.array([1.0, np.nan]), ["a"], np.ones((2, 2))):
+        with pytest.raises(triad.TriadError, match="cannot vary"):
+            triad.sweep("simple-pendulum", {"/bodies/0/mass": wrong})
+
+
+def test_arrays_of_equally_spaced_values_are_grids():
+    options = {"until": 0.1, "outputs": "energy"}
+    grid = triad.sweep("simple-pendulum", {"mass": triad.grid(1, 2, 5)}, **options)
+    for same in (np.linspace(1, 2, 5), [1, 1.25, 1.5, 1.75, 2]):
+        found = triad.sweep("simple-pendulum", {"mass": same}, **options)
+        assert np.array_equal(found.values, grid.values) and np.array_equal(found.outputs, grid.outputs)
+    # Three values are values, not a grid's two ends and a count.
+    assert list(triad.sweep("simple-pendulum", {"mass": [1, 2, 3]}, until=0.1)["mass"]) == [1, 2, 3]
 
 
 def test_analyses_answer_as_the_command_line_does(program):

@@ -42,11 +42,13 @@ function append(parent: Element, children: Child[]): void {
   }
 }
 
+/** What authors and the server write is English, whatever the page around it speaks. */
+export const AUTHORED = "en";
+
 /** Markup written by the lesson's author and rendered by our own server. */
 export function authored<E extends HTMLElement>(element: E, html: string): E {
   element.innerHTML = html;
-  // Authors write English, whatever the page around it speaks.
-  element.lang = "en";
+  element.lang = AUTHORED;
   if (site)
     for (const link of element.querySelectorAll("a[href^='/']"))
       link.setAttribute("href", addressOf(link.getAttribute("href") ?? ""));

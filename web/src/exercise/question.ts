@@ -2,7 +2,7 @@
 
 import { api } from "../api/client";
 import type { Answer, Lesson, Question, QuestionVerdict } from "../api/types";
-import { announce, authored, h } from "../core/dom";
+import { AUTHORED, announce, authored, h } from "../core/dom";
 import { setMaths } from "../core/maths";
 import { t } from "../core/texts";
 import { icon } from "../ui/icons";
@@ -60,7 +60,7 @@ export function questionField(
     ),
     inputs.root,
     readingLine(lesson.slug, question, inputs),
-    h("p", { class: "rule", id: ruleId }, question.rule),
+    h("p", { class: "rule", id: ruleId, lang: AUTHORED }, question.rule),
     // On paper alone.
     h("div", { class: "handout-space", "aria-hidden": "true" }),
     question.hints_available > 0 ? opened.root : null,

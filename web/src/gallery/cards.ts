@@ -1,7 +1,7 @@
 // Built-in mechanisms as cards with pictures that play.
 import { api } from "../api/client";
 import type { Motion, SceneEntry } from "../api/types";
-import { h } from "../core/dom";
+import { AUTHORED, h } from "../core/dom";
 import { MovingPicture } from "../player/moving-picture";
 import { runName, titled } from "./groups";
 
@@ -30,8 +30,12 @@ function card(
     item.append(picture.root);
   }
   item.append(
-    h(level, null, h("a", { href: `/scenes/${encodeURIComponent(name)}` }, titled(scene.name))),
-    h("p", null, scene.summary),
+    h(
+      level,
+      null,
+      h("a", { href: `/scenes/${encodeURIComponent(name)}`, lang: AUTHORED }, titled(scene.name)),
+    ),
+    h("p", { lang: AUTHORED }, scene.summary),
   );
   return item;
 }

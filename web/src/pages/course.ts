@@ -2,7 +2,7 @@
 // one's own: some of them, in another order, as the file that a server is started with.
 import { api } from "../api/client";
 import type { NotionGraph } from "../api/types";
-import { announce, h, saveFile, setText, svg } from "../core/dom";
+import { AUTHORED, announce, h, saveFile, setText, svg } from "../core/dom";
 import type { Page } from "../core/router";
 import { parts, t } from "../core/texts";
 import { problemNotice, skeleton } from "../ui/notice";
@@ -158,7 +158,7 @@ class CoursePlan {
         "label",
         { for: `take-${lesson.slug}` },
         h("span", { class: "course-place" }, taken ? String(this.placeOf(at)) : ""),
-        lesson.title,
+        h("span", { lang: AUTHORED }, lesson.title),
         isWanting ? h("span", { class: "flag" }, t("too early")) : null,
       ),
       step(-1, "earlier", "↑", t("{title}: earlier", { title: lesson.title })),
@@ -252,7 +252,11 @@ class CoursePlan {
         : [],
     );
     this.details.replaceChildren(
-      h("h2", null, h("a", { href: `/lessons/${encodeURIComponent(lesson.slug)}` }, lesson.title)),
+      h(
+        "h2",
+        null,
+        h("a", { href: `/lessons/${encodeURIComponent(lesson.slug)}`, lang: AUTHORED }, lesson.title),
+      ),
       h("p", { class: "help" }, t("About {minutes} minutes.", { minutes: lesson.minutes })),
       h("h3", null, t("Introduces")),
       h("p", null, lesson.introduces.map(words).join(", ") || t("nothing new")),

@@ -3,7 +3,7 @@
 import { api } from "../api/client";
 import type { LessonSummary } from "../api/types";
 import { addressOf } from "../core/address";
-import { h } from "../core/dom";
+import { AUTHORED, h } from "../core/dom";
 import { student } from "../core/prefs";
 import type { Page } from "../core/router";
 import { t } from "../core/texts";
@@ -174,7 +174,7 @@ function parts(lessons: LessonSummary[], known: Map<string, Standing>): HTMLElem
       h(
         "h3",
         { class: "group-title" },
-        title,
+        h("span", { lang: AUTHORED }, title),
         passed > 0
           ? h("span", { class: "group-count" }, t("{passed} of {own} passed", { passed, own: own.length }))
           : null,
@@ -197,9 +197,9 @@ function row(lesson: LessonSummary, known: Standing | undefined): HTMLElement {
         !lesson.part ? "h3" : "h4",
         null,
         h("span", { class: "lesson-number", "aria-hidden": "true" }, String(lesson.number)),
-        h("a", { href: hrefOf(lesson) }, lesson.title),
+        h("a", { href: hrefOf(lesson), lang: AUTHORED }, lesson.title),
       ),
-      h("p", null, lesson.summary),
+      h("p", { lang: AUTHORED }, lesson.summary),
     ),
     h(
       "div",

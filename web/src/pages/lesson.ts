@@ -3,7 +3,7 @@
 import { ApiError, api } from "../api/client";
 import type { Lesson, LessonSummary } from "../api/types";
 import { pathOf } from "../core/address";
-import { authored, h } from "../core/dom";
+import { AUTHORED, authored, h } from "../core/dom";
 import { hasMaths, loadMaths, setMaths } from "../core/maths";
 import { student } from "../core/prefs";
 import { type Page, setTitle } from "../core/router";
@@ -156,7 +156,7 @@ async function showNeighbours(
           "a",
           { href: `/lessons/${encodeURIComponent(lesson.slug)}` },
           h("span", null, which),
-          h("b", null, lesson.title),
+          h("b", { lang: AUTHORED }, lesson.title),
         )
       : null;
   place.append(
@@ -217,7 +217,7 @@ function showText(place: HTMLElement, lesson: Lesson): void {
         ` / ${t("{number}, about {minutes} minutes", { number: lesson.number, minutes: lesson.minutes })}`,
         printButton(),
       ),
-      h("h1", null, lesson.title),
+      h("h1", { lang: AUTHORED }, lesson.title),
       lesson.prerequisites.length > 0
         ? h("p", { class: "before" }, t("Read before:"), " ", ...joined(lesson.prerequisites))
         : null,
@@ -226,7 +226,7 @@ function showText(place: HTMLElement, lesson: Lesson): void {
             "div",
             { class: "objectives" },
             h("h2", null, t("After this lesson you can")),
-            h("ul", null, ...lesson.objectives.map((goal) => h("li", null, goal))),
+            h("ul", { lang: AUTHORED }, ...lesson.objectives.map((goal) => h("li", null, goal))),
           )
         : null,
     ),

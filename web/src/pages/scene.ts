@@ -2,7 +2,7 @@
 
 import { ApiError, api } from "../api/client";
 import type { Scene } from "../api/types";
-import { h, saveFile } from "../core/dom";
+import { AUTHORED, h, saveFile } from "../core/dom";
 import { recall, remember, student } from "../core/prefs";
 import { type Page, setTitle } from "../core/router";
 import { t } from "../core/texts";
@@ -201,6 +201,7 @@ class ScenePage {
     const title = scene.title ?? this.subject.name;
     this.title.textContent = title;
     this.about.textContent = scene.description ?? "";
+    this.about.lang = AUTHORED;
     setTitle(title);
   }
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from typing import Any, Literal
+from typing import Any, Literal, Union
 
 from . import _native
-from ._scene import Scene, named
+from ._scene import Scene, named, words
 
 
 def scenes() -> dict[str, str]:
@@ -43,7 +43,7 @@ def modes(of: Scene, *, about: Literal["equilibrium", "start", "steady"] = "equi
     return _analysis("modes", of, about)
 
 
-def assemble(of: Scene, *, keep: Iterable[str] = ()) -> dict[str, Any]:
+def assemble(of: Scene, *, keep: Union[str, Iterable[str]] = ()) -> dict[str, Any]:
     """Where the bodies of a roughly placed scene are once its joints are closed; bodies to ``keep`` stay."""
     return _analysis("assemble", of, keep=keep)
 
@@ -59,6 +59,6 @@ def kinematics(
     return _analysis("kinematics", of, json.dumps({"on": side, "about": point, "expressed_in": frame}))
 
 
-def _analysis(word: str, of: Scene, at: str = "", keep: Iterable[str] = ()) -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(_native.analyse(word, *named(of), at, list(keep)))
+def _analysis(word: str, of: Scene, at: str = "", keep: Union[str, Iterable[str]] = ()) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(_native.analyse(word, *named(of), at, words(keep) or []))
     return found

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
+from numbers import Real
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -29,5 +30,5 @@ def place(what: str, name: str, known: Sequence[str]) -> int:
 def finite(options: Mapping[str, Any]) -> None:
     """Refuses options that are no finite numbers."""
     for name, value in options.items():
-        if isinstance(value, float) and not math.isfinite(value):
+        if isinstance(value, Real) and not math.isfinite(value):
             raise refusal("not-finite", f"{name} is {value}", f"give {name} a finite number, or leave it out")

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._errors import finite, place
-from ._scene import Scene, named
+from ._scene import Scene, as_json, named, words
 
 if TYPE_CHECKING:
     import pandas
@@ -36,8 +36,8 @@ def run(
     treatment: Optional[str] = None,
     step: Optional[float] = None,
     coordinates: Optional[str] = None,
-    outputs: Optional[Iterable[str]] = None,
-    no_skip: Iterable[str] = (),
+    outputs: Optional[Union[str, Iterable[str]]] = None,
+    no_skip: Union[str, Iterable[str]] = (),
     estimate: Optional[bool] = None,
     verify: bool = False,
     most_steps: Optional[int] = None,
@@ -71,15 +71,15 @@ def run(
         "treatment": treatment,
         "step": step,
         "coordinates": coordinates,
-        "outputs": None if outputs is None else list(outputs),
-        "no_skip": list(no_skip),
+        "outputs": words(outputs),
+        "no_skip": words(no_skip),
         "estimate": estimate,
         "most_steps": most_steps,
         "most_seconds": most_seconds,
     }
     finite(options)
     kind, text = named(scene)
-    motion, stopped = _native.run(kind, text, json.dumps(options), verify, progress)
+    motion, stopped = _native.run(kind, text, as_json(options), verify, progress)
     found = Run(motion)
     if stopped is not None:
         stopped.partial = found  # type: ignore[attr-defined]
@@ -87,7 +87,7 @@ def run(
     return found
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class BodyMotion:
     """One body over time: views of the run's arrays, in the world."""
 
@@ -106,8 +106,11 @@ class BodyMotion:
         arm: Floats = np.einsum("k,nkx->nx", np.array([u, v, w]), self.directors)
         return self.position + arm
 
+    def __repr__(self) -> str:
+        return f"<triad.BodyMotion of {self.name}: position, directors, velocity, angular_velocity at {len(self.position)} times>"
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class Errors:
     """Estimated errors, each the largest over all bodies; nan where they are not known."""
 
@@ -122,8 +125,13 @@ class Errors:
     energy: Floats
     """J."""
 
+    def __repr__(self) -> str:
+        if np.isnan(self.position).all():
+            return "<triad.Errors: not known>"
+        return f"<triad.Errors: at most {np.nanmax(self.position):.1e} m, {np.nanmax(self.velocity):.1e} m/s>"
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class Reactions:
     """What body ``by`` does to body ``on`` through a joint or driver, over time."""
 
@@ -157,6 +165,11 @@ class Reactions:
     def unique(self) -> bool:
         """Whether all numbers are unique at all times."""
         return bool(self.force_unique.all() and self.moment_unique.all())
+
+    def __repr__(self) -> str:
+        largest = np.linalg.norm(self.force, axis=1).max(initial=0.0)
+        unique = "unique" if self.unique else "not all unique"
+        return f"<triad.Reactions of {self.joint}: {self.by} on {self.on}, at most {largest:.4g} N, {unique}>"
 
 
 class Run:

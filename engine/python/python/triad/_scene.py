@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, Union
 
 Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
@@ -22,8 +22,20 @@ def named(scene: Scene) -> tuple[str, str]:
     return ("json", scene) if scene.lstrip().startswith("{") else ("name", scene)
 
 
+def words(given: Union[None, str, Iterable[str]]) -> Union[None, list[str]]:
+    """A list of words; one word is a list of it, not of its letters."""
+    if given is None:
+        return None
+    return [given] if isinstance(given, str) else list(given)
+
+
+def as_json(value: Mapping[str, Any]) -> str:
+    """JSON of options whose numbers may be NumPy's."""
+    return json.dumps(value, default=_plain)
+
+
 def _plain(value: Any) -> Any:
     """Numbers and arrays of NumPy as JSON has them."""
     if hasattr(value, "tolist"):
         return value.tolist()
-    raise TypeError(f"a scene cannot hold a {type(value).__name__}")
+    raise TypeError(f"a {type(value).__name__} is neither a number, a text nor a list of them")

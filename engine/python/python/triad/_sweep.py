@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._errors import finite, place, refusal
-from ._scene import Scene, named
+from ._scene import Scene, as_json, named, words
 
 if TYPE_CHECKING:
     import pandas
@@ -82,7 +82,7 @@ class Sweep:
 
 def sweep(
     scene: Scene,
-    vary: Mapping[str, Union[Values, Sequence[Any]]],
+    vary: Mapping[str, Union[Values, Sequence[Any], NDArray[Any]]],
     *,
     samples: int = 1,
     seed: int = 1,
@@ -91,13 +91,13 @@ def sweep(
     tolerance: Optional[float] = None,
     integrator: Optional[str] = None,
     estimate: Optional[bool] = None,
-    outputs: Optional[Iterable[str]] = None,
+    outputs: Optional[Union[str, Iterable[str]]] = None,
     progress: Optional[Callable[[float, float], object]] = None,
 ) -> Sweep:
     """Runs a scene with varied numbers, on all cores. The results do not depend on the number of threads.
 
     vary      names of parameters of the scene, or JSON pointers such as "/bodies/0/mass", each with ``grid(1, 2, 11)``,
-              ``uniform(1, 2)`` or ``normal(1, 0.1)``
+              ``uniform(1, 2)`` or ``normal(1, 0.1)``, or a list or array of values at equal distances
     samples   runs with drawn numbers at each point of the grids
     seed      where drawn numbers come from: the same seed gives the same runs
     threads   0 takes one for each core
@@ -110,19 +110,33 @@ def sweep(
         "tolerance": tolerance,
         "integrator": integrator,
         "estimate": estimate,
-        "outputs": None if outputs is None else list(outputs),
+        "outputs": words(outputs),
     }
     finite(options)
     given = [[name, _values(name, values)] for name, values in vary.items()]
     kind, text = named(scene)
-    found = _native.sweep(kind, text, json.dumps(options), json.dumps(given), samples, seed, threads, progress)
+    found = _native.sweep(kind, text, as_json(options), json.dumps(given), samples, seed, threads, progress)
     return Sweep(found)
 
 
 def _values(name: str, values: Sequence[Any]) -> dict[str, Any]:
+    if isinstance(values, (list, np.ndarray)):
+        return _equally_spaced(name, values)
     parts = list(values)
     if len(parts) == 3 and parts[0] in ("uniform", "normal"):
         return {parts[0]: [float(parts[1]), float(parts[2])]}
     if len(parts) == 3 and not isinstance(parts[0], str) and int(parts[2]) == parts[2] > 0:
         return {"grid": [float(parts[0]), float(parts[1]), int(parts[2])]}
     raise refusal("vary", f"{name} cannot vary over {values!r}", "give grid(1, 2, 11), uniform(1, 2) or normal(1, 0.1)")
+
+
+def _equally_spaced(name: str, values: Union[list[Any], NDArray[Any]]) -> dict[str, Any]:
+    """The grid of a list or an array, such as ``np.linspace(1, 2, 11)``."""
+    try:
+        given = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        given = np.empty((0, 0))
+    count = given.size
+    if given.ndim != 1 or count == 0 or not np.allclose(given, np.linspace(given[0], given[-1], count), rtol=1e-12, atol=0.0):
+        raise refusal("vary", f"{name} cannot vary over {values!r}", "give numbers at equal distances, or grid(1, 2, 11)")
+    return {"grid": [float(given[0]), float(given[-1]), count]}

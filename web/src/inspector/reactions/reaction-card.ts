@@ -6,6 +6,7 @@ import { h } from "../../core/dom";
 import { num } from "../../core/format";
 import { t } from "../../core/texts";
 import { norm } from "../../mechanics/vec";
+import { aboutIn, frameIn } from "./wording";
 
 /** A reaction with its multipliers. */
 export interface JointReaction extends Reaction {
@@ -15,7 +16,7 @@ export interface JointReaction extends Reaction {
 /** The card of a joint; `toggle` selects it, or no joint. */
 export function card(entry: JointReaction, selected: boolean, toggle: () => void): HTMLElement {
   const at = entry.about_at.map((part) => num(tidy(part, entry.about_at), 4)).join(", ");
-  const about = t("moment about {about} at ({at}) m", { about: entry.about, at });
+  const about = t("moment about {about} at ({at}) m", { about: aboutIn(entry.about), at });
   return h(
     "article",
     { class: selected ? "joint is-selected" : "joint" },
@@ -42,7 +43,7 @@ export function card(entry: JointReaction, selected: boolean, toggle: () => void
         on: entry.on,
         by: entry.by,
         about,
-        expressed_in: entry.expressed_in,
+        expressed_in: frameIn(entry.expressed_in),
       }),
     ),
     componentTable(entry),

@@ -15,6 +15,7 @@ import { empty, problemNotice } from "../../ui/notice";
 import type { Panel } from "../../ui/panel";
 import { paintFreeBody } from "./free-body";
 import { card, type JointReaction } from "./reaction-card";
+import { givenUp } from "./wording";
 
 interface JointReactions {
   multipliers: JointMultipliers[];
@@ -244,7 +245,7 @@ function redundancyNotice(set: Reactions["redundancies"][number]): HTMLElement {
     t("let {joint} be {becomes}, which gives up {gives_up}", {
       joint: remedy.joint,
       becomes: remedy.becomes,
-      gives_up: remedy.gives_up,
+      gives_up: givenUp(remedy.gives_up),
     }),
   );
   return h(

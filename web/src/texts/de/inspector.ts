@@ -238,6 +238,21 @@ export const inspector = {
     "Kräfte in Newton und Momente um den Schwerpunkt in Newtonmeter, Weltsystem",
   Force: "Kraft",
   "mass × acceleration": "Masse × Beschleunigung",
+  'the point of "{joint}" on "{on}"': "den Punkt von „{joint}“ auf „{on}“",
+  'the centre of mass of "{body}"': "den Schwerpunkt von „{body}“",
+  "the world's origin": "den Ursprung der Welt",
+  world: "Weltsystem",
+  'frame of "{body}"': "System von „{body}“",
+  'joint "{joint}", x along its axis': "Gelenk „{joint}“, x entlang seiner Achse",
+  "one of the moments across its axis": "eines der Momente quer zu seiner Achse",
+  "the force along its axis": "die Kraft entlang seiner Achse",
+  "the force along its axis and the moments across it":
+    "die Kraft entlang seiner Achse und die Momente quer zu ihr",
+  "the moment about its axis": "das Moment um seine Achse",
+  "the moment about one axis": "das Moment um eine Achse",
+  "the moment across its two axes": "das Moment quer zu seinen beiden Achsen",
+  "the moments across its axis": "die Momente quer zu seiner Achse",
+  "the moments across its normal": "die Momente quer zu seiner Normalen",
   "moment about {about} at ({at}) m": "Moment um {about} bei ({at}) m",
   "Draw its force, mark its rows in the Jacobian":
     "Ihre Kraft zeichnen, ihre Zeilen in der Jacobi-Matrix markieren",
@@ -276,7 +291,7 @@ export const inspector = {
   "one row": "eine Zeile",
   "{rows} rows": "{rows} Zeilen",
   "let {joint} be {becomes}, which gives up {gives_up}":
-    "mache {joint} zu {becomes}; das gibt {gives_up} auf",
+    "mache {joint} zu „{becomes}“ und gib dafür {gives_up} auf",
   "{joints} share {rows} too many: components marked ≈ are not unique.":
     "{joints} teilen sich {rows} zu viel: Mit ≈ markierte Komponenten sind nicht eindeutig.",
   "The motion is the same however these joints share the load. What is shown is the smallest set of multipliers that gives it.":
