@@ -181,4 +181,27 @@ async function hands() {
   say("hands and keys turn it, pull a body and save it");
 }
 
-await walk({ name: "drawing", pictures, browser, complaints }, plays, busy, costs, hands);
+/** What is thrown is followed: it stays in the picture while it falls, and at the end. */
+async function follows() {
+  await page.goto(`${address}/scenes/free-fall`);
+  await until("the body is drawn", times, ([drawn]) => drawn === 0);
+  // How many pixels have the light blue of the body; that of an axis is darker.
+  const seen = () => drawing.evaluate((canvas) => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let count = 0;
+    for (let at = 0; at < data.length; at += 4) if (data[at + 2] - data[at] > 60 && data[at + 1] > 130 && data[at + 3] > 200) count += 1;
+    return count;
+  });
+  const least = 100;
+  assert(await seen() > least, "at the start");
+  await page.keyboard.press(" ");
+  for (let drawn = 0; drawn < 2; [drawn] = await times()) {
+    const count = await seen();
+    assert(count > least, `at ${drawn} s the body has ${count} pixels`);
+    await page.waitForTimeout(100);
+  }
+  await until("the body is there at the end", seen, (count) => count > least);
+  say("a thrown body stays in the picture");
+}
+
+await walk({ name: "drawing", pictures, browser, complaints }, plays, busy, costs, hands, follows);
