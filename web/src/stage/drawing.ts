@@ -24,7 +24,7 @@ const REACH = 14;
 const SWEEP = 2;
 /** The picture is fitted anew where it would become this many times as large. */
 const WORTH_FITTING = 1.15;
-/** What leaves the picture is followed to where it will be in so many seconds of the run. */
+/** What flies out of the picture is followed to where it will be in so many seconds of the run. */
 const AHEAD = 0.8;
 /** How long the picture takes to a new fit, ms. */
 const EASE_MS = 450;
@@ -331,9 +331,11 @@ export class Drawing {
     const moments = Array.from({ length: count }, (_, k) =>
       count > 1 ? (session.moment((last * k) / (count - 1)) ?? state) : state,
     );
-    const seen = leaving && session.moving ? [state, soon(state, AHEAD), ...moments] : [state, ...moments];
-    const points = seen.flatMap((moment) => outline(parts, moment, eye));
     const fixed = this.grounds(parts, state).map((p) => eye.flat(p));
+    // What hangs on the ground turns back.
+    const flies = leaving && session.moving && fixed.length === 0;
+    const seen = flies ? [state, soon(state, AHEAD), ...moments] : [state, ...moments];
+    const points = seen.flatMap((moment) => outline(parts, moment, eye));
     if (!known && fixed.length === 1 && !this.turnsUpright()) points.push(...circle(fixed, points));
     points.push(...this.tips(moments).map((p) => eye.flat(p)));
     return boxOf(points);
@@ -365,9 +367,9 @@ export class Drawing {
     const { parts, state, eye, session } = this;
     if (!parts || !state || !this.scene?.gravity?.some((g) => g !== 0)) return undefined;
     const seen = [state, ...session.past.all.slice(0, 1), ...(session.latest ? [session.latest] : [])];
-    if (leaving) seen.push(soon(state, AHEAD));
-    const points = seen.flatMap((moment) => pointsOf(parts, moment));
     const fixed = this.grounds(parts, state);
+    if (leaving && fixed.length === 0) seen.push(soon(state, AHEAD));
+    const points = seen.flatMap((moment) => pointsOf(parts, moment));
     // A mechanism that hangs may swing as far below its joints as it reaches.
     const reach = fixed.flatMap((f) =>
       points.map((p) => dot(f, eye.up) - Math.hypot(...p.map((x, k) => x - (f[k] ?? 0)))),

@@ -13,7 +13,7 @@ export const placeOf = (it: HTMLElement): Place => [
 ];
 
 /** About the width of a letter by its height. */
-const LETTER_WIDTH = 0.56;
+const LETTER_WIDTH = 0.6;
 /** Between the tip of an arrow and its words, CSS pixels. */
 const GAP = 10;
 /** From one line to the next, by the height of the letters. */
