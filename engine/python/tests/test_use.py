@@ -27,6 +27,18 @@ def test_errors_say_what_where_and_what_to_try():
         triad.run("simple-pendulum", until=0.1).body("bop")
     with pytest.raises(triad.TriadError, match="did you mean \"pin\""):
         triad.run("simple-pendulum", until=0.1).reactions("pim")
+    r = triad.run("simple-pendulum", until=0.1)
+    for wrong, hint in [
+        ({"frame": "local"}, "world, joint or body"),
+        ({"side": "k"}, "j or i"),
+        ({"side": 1}, "j or i"),
+        ({"point": "com"}, "center-of-mass"),
+        ({"point": [1, 2]}, "three numbers"),
+        ({"point": [1, 2, float("nan")]}, "three numbers"),
+    ]:
+        with pytest.raises(triad.TriadError) as found:
+            r.reactions("pin", **wrong)
+        assert hint in found.value.hint, wrong
     with pytest.raises(triad.TriadError, match="until is nan"):
         triad.run("simple-pendulum", until=float("nan"))
     with pytest.raises(triad.TriadError, match="no file"):

@@ -27,12 +27,12 @@ def test_arms_lead_to_the_joints_at_all_times(scene):
 def test_without_the_viewer_it_is_told_how_to_get_it(monkeypatch):
     r = triad.run("simple-pendulum", until=0.1)
     monkeypatch.setitem(sys.modules, "rerun", None)
-    with pytest.raises(triad.TriadError, match=r"pip install triad\[rerun\]"):
+    with pytest.raises(triad.TriadError, match=r"pip install .rerun-sdk\[notebook\]"):
         r.viewer()
 
 
 def test_the_viewer_gets_every_body_at_all_times():
-    rr = pytest.importorskip("rerun", reason="pip install triad[rerun]")
+    rr = pytest.importorskip("rerun", reason="pip install rerun-sdk[notebook]")
     r = triad.run("rssr", until=1, every=0.1)
     logged, sent = [], {}
     _viewer.log(
@@ -47,5 +47,5 @@ def test_the_viewer_gets_every_body_at_all_times():
 
 
 def test_the_viewer_is_made():
-    pytest.importorskip("rerun_notebook", reason="pip install triad[rerun]")
+    pytest.importorskip("rerun_notebook", reason="pip install rerun-sdk[notebook]")
     assert type(triad.run("simple-pendulum", until=0.1).viewer()).__name__ == "Viewer"

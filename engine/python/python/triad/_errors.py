@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import difflib
 import math
-from numbers import Real
 from collections.abc import Mapping, Sequence
+from numbers import Real
 from typing import Any
 
 from ._native import TriadError
@@ -25,6 +25,13 @@ def place(what: str, name: str, known: Sequence[str]) -> int:
     near = difflib.get_close_matches(name, known, 3)
     hint = f"did you mean {' or '.join(near)}?" if near else f"there are {', '.join(known)}"
     raise refusal(f"unknown-{what}", f"there is no {what} {name!r}", hint)
+
+
+def word(what: str, given: Any, known: Sequence[str]) -> str:
+    """One of a few words."""
+    if isinstance(given, str) and given in known:
+        return given
+    raise refusal(f"unknown-{what}", f"there is no {what} {given!r}", f"give {', '.join(known[:-1])} or {known[-1]}")
 
 
 def finite(options: Mapping[str, Any]) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._errors import finite, place
+from ._errors import finite, place, refusal, word
 from ._scene import Scene, as_json, named, words
 
 if TYPE_CHECKING:
@@ -264,10 +264,13 @@ class Run:
         point  "joint-point", "center-of-mass" of that body, "origin", or three numbers in the world, m
         frame  "world", "joint" (x along its axis), or "body" (the one that it acts on)
         """
-        about: Any = point
-        if point == "origin" or not isinstance(point, str):
-            about = {"world-point": [0.0, 0.0, 0.0] if isinstance(point, str) else [float(x) for x in point]}
-        convention = json.dumps({"on": side, "about": about, "expressed_in": frame})
+        convention = json.dumps(
+            {
+                "on": word("side", side, ("j", "i")),
+                "about": _about(point),
+                "expressed_in": word("frame", frame, ("world", "joint", "body")),
+            }
+        )
         found = self._motion.reactions(joint, convention)
         return Reactions(
             joint=joint,
@@ -288,7 +291,7 @@ class Run:
         )
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The table with the time as its index. Needs pandas: ``pip install triad[tables]``."""
+        """The table with the time as its index. Needs pandas: ``pip install pandas``."""
         import pandas
 
         return pandas.DataFrame(self.table, index=pandas.Index(self.t, name="t"), columns=self.columns)
@@ -298,7 +301,7 @@ class Run:
         return self._motion.svg(moving)
 
     def viewer(self, *, width: int = 800, height: int = 500) -> Any:
-        """The motion in a notebook's viewer, to be turned by hand. Needs rerun: ``pip install triad[rerun]``."""
+        """The motion in a notebook's viewer, to be turned by hand. Needs rerun: ``pip install 'rerun-sdk[notebook]==0.33.*'``."""
         from ._viewer import viewer
 
         return viewer(self, width, height)
@@ -322,3 +325,17 @@ class Run:
     def _repr_svg_(self) -> str:
         return self.svg()
 
+
+def _about(point: Point) -> Any:
+    """About which point moments are taken, as the native part is told."""
+    words_known = ("joint-point", "center-of-mass", "origin")
+    if isinstance(point, str):
+        known = word("point", point, (*words_known, "three numbers in the world"))
+        return {"world-point": [0.0, 0.0, 0.0]} if known == "origin" else known
+    try:
+        at = [float(x) for x in point]
+    except (TypeError, ValueError):
+        at = []
+    if len(at) != 3 or not np.isfinite(at).all():
+        raise refusal("unknown-point", f"{point!r} is no point", f"give {', '.join(words_known)} or three numbers in the world, m")
+    return {"world-point": at}

@@ -63,7 +63,7 @@ class Sweep:
         return len(self.values)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """Varied numbers and outputs, one row for each run. Needs pandas: ``pip install triad[tables]``."""
+        """Varied numbers and outputs, one row for each run. Needs pandas: ``pip install pandas``."""
         import pandas
 
         return pandas.DataFrame(np.hstack([self.values, self.outputs]), columns=[*self.varied, *self.columns])
@@ -119,7 +119,7 @@ def sweep(
     return Sweep(found)
 
 
-def _values(name: str, values: Sequence[Any]) -> dict[str, Any]:
+def _values(name: str, values: Union[Values, Sequence[Any], NDArray[Any]]) -> dict[str, Any]:
     if isinstance(values, (list, np.ndarray)):
         return _equally_spaced(name, values)
     parts = list(values)

@@ -42,7 +42,7 @@ def viewer(run: Run, width: int, height: int) -> Any:
         from rerun.notebook import Viewer
     except ImportError as missing:
         raise refusal(
-            "no-viewer", f"the viewer is not installed ({missing})", "pip install triad[rerun]; r.svg() needs nothing"
+            "no-viewer", f"the viewer is not installed ({missing})", "pip install 'rerun-sdk[notebook]==0.33.*'; r.svg() needs nothing"
         ) from missing
     recording = rr.RecordingStream(f"triad {run.scene['name']}")
     log(run, rr, recording.log, recording.send_columns)
