@@ -60,7 +60,7 @@ fn statistics(all: &[Scene], ways: &[&str], tolerances: &[f64]) {
                 judged.len()
             );
             judged.sort_by(|a, b| (a.estimate / a.error).total_cmp(&(b.estimate / b.error)));
-            let worst = judged.iter().take(4).chain(judged.iter().rev().take(2));
+            let worst = judged.iter().take(bad.max(4)).chain(judged.iter().rev().take(2));
             for Judged { scene, time, estimate, error, .. } in worst {
                 println!("    {scene} at {time:.3} s: {estimate:.1e} for {error:.1e}");
             }

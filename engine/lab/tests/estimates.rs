@@ -3,6 +3,7 @@
 use triad_engine::catalogue;
 use triad_engine::run::Simulation;
 use triad_lab::estimates::{Judged, WAYS, in_the_way, judge, scenes};
+use triad_lab::stress::random;
 use triad_scene::IntegratorKind;
 
 #[test]
@@ -38,18 +39,19 @@ fn every_method_says_what_its_result_is_worth() {
     }
 }
 
-/// Two runs by radau whose steps only grow from the first one agree in their errors if they take the same.
+/// Two runs by radau whose steps only grow from the first one agree in their errors if they take the same, or if they make as many
+/// iterations of Newton's method; and where a run is for a moment off by what its second solution is off, the two agree.
 #[test]
-fn radau_beside_radau_takes_other_steps() {
+fn a_second_solution_shares_no_error_with_radau() {
     let mut judged: Vec<Judged> = Vec::new();
-    for scene in &scenes(25) {
+    for scene in scenes(25).iter().chain(&[86, 217, 225].map(random::scene)) {
         let scene = in_the_way(scene, "radau").unwrap().tolerance(1e-3);
         judged.extend(judge(&scene).unwrap_or_default());
     }
     let good = judged.iter().filter(|one| one.is_good()).count();
-    assert!(judged.len() > 400 && 100 * good >= 97 * judged.len(), "{good} of {}", judged.len());
+    assert!(judged.len() > 400 && 100 * good >= 99 * judged.len(), "{good} of {}", judged.len());
     let bad: Vec<&Judged> = judged.iter().filter(|one| one.is_bad()).collect();
-    assert!(100 * bad.len() <= judged.len(), "{} of {}: {bad:?}", bad.len(), judged.len());
+    assert!(bad.is_empty(), "{bad:?}");
 }
 
 /// Neighbouring motions part: after the moment that the run tells, it gives no figure any more.

@@ -49,7 +49,20 @@ impl DerefMut for Integrator {
 impl Integrator {
     /// Starts an integrator of the given kind (not `Auto`) at (t, y). One that cannot start fails at its first step.
     pub fn start(kind: IntegratorKind, mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Self {
-        let started = start(kind, mechanism, t, y);
+        Self::started(start(kind, mechanism, t, y, false), t, y)
+    }
+
+    /// The same for a solution that another one of the same method is compared with: it solves the equations of its steps further.
+    pub fn start_beside(kind: IntegratorKind, mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Self {
+        Self::started(start(kind, mechanism, t, y, true), t, y)
+    }
+
+    /// None: its first step is refused. For copies of a run that only answer questions.
+    pub fn ended(t: f64, y: &[f64]) -> Self {
+        Self::started(Err(StopReason::Undetermined { time: t }), t, y)
+    }
+
+    fn started(started: Result<Box<dyn Stepper>, StopReason>, t: f64, y: &[f64]) -> Self {
         let stepper =
             started.unwrap_or_else(|reason| Box::new(FailedStart { record: StepRecord::new(t, y), reason }));
         let islands = stepper.skipped().map_or(1, |skipped| skipped.islands);
@@ -118,6 +131,7 @@ fn start(
     mechanism: &mut Mechanism,
     t: f64,
     y: &[f64],
+    beside: bool,
 ) -> Result<Box<dyn Stepper>, StopReason> {
     let settings = &mechanism.system.model.settings;
     let (tolerance, end, step) = (settings.tolerance, settings.duration, settings.step);
@@ -129,7 +143,7 @@ fn start(
         _ => tolerance,
     };
     let explicit = StartExplicit { kind, tolerance, step, end };
-    let radau = StartRadau { tolerance, step };
+    let radau = StartRadau { tolerance, step, beside };
     let (tangent, partition) = (IndependentCoordinates::Tangent, IndependentCoordinates::Partition);
     Ok(match (kind, method) {
         (IntegratorKind::Taylor | IntegratorKind::Auto, _) => {
@@ -180,16 +194,18 @@ impl Start for StartExplicit {
 struct StartRadau {
     tolerance: f64,
     step: Option<f64>,
+    beside: bool,
 }
 
 impl Start for StartRadau {
     type Method = Radau;
 
     fn start(&self, mut system: &mut dyn OdeSystem, t: f64, x: &[f64]) -> Radau {
-        match self.step {
+        let method = match self.step {
             Some(h) => Radau::with_step(&RADAU_5, &mut system, t, x, self.tolerance, h),
             None => Radau::new(&mut system, t, x, self.tolerance),
-        }
+        };
+        if self.beside { method.solving_further() } else { method }
     }
 }
 

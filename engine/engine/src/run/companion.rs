@@ -51,8 +51,10 @@ pub(super) struct Companion {
     longest: f64,
     /// When the two were compared last, s.
     compared: f64,
-    /// The second solution at that time.
+    /// The second solution at that time, less its own error if it carries that along.
     y: Vec<f64>,
+    /// Its own error.
+    own: Vec<f64>,
     lost: Option<Lost>,
 }
 
@@ -77,12 +79,21 @@ impl Companion {
         settings.step = None;
         settings.constraint_method = ConstraintMethod::Projection;
         settings.integrator = if stiff { IntegratorKind::Radau } else { IntegratorKind::Auto };
-        settings.error_estimate = false;
         let (kind, _) = integrate::choose(&mut mechanism, y);
         mechanism.set_state(t, y);
-        let integrator = Integrator::start(kind, &mut mechanism, t, y);
+        let integrator = Integrator::start_beside(kind, &mut mechanism, t, y);
         let longest = if stiff { SHORTER } else { f64::INFINITY };
-        Some(Box::new(Self { mechanism, integrator, kind, longest, compared: t, y: y.to_vec(), lost: None }))
+        let own = vec![0.0; y.len()];
+        Some(Box::new(Self {
+            mechanism,
+            integrator,
+            kind,
+            longest,
+            compared: t,
+            y: y.to_vec(),
+            own,
+            lost: None,
+        }))
     }
 
     /// Its method and tolerance.
@@ -118,6 +129,9 @@ impl Companion {
         integrator.interpolate(mechanism, t, &mut self.y);
         self.compared = t;
         let system = &mechanism.system;
+        if integrator.error(system, t, &mut self.own) {
+            self.y.iter_mut().zip(&self.own).for_each(|(y, own)| *y -= own);
+        }
         // A comparison that is false for NaN as well.
         let near = apart(system, y, &self.y) < LOST * system.length;
         self.lost = (!near).then_some(Lost::TooLarge(t));

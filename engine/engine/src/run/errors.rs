@@ -109,26 +109,40 @@ impl Simulation {
 
     /// The current state without its error.
     fn better(&self) -> Option<&CachedState> {
-        let (time, system) = (self.time(), self.system());
-        self.current.better(system, |error| match &self.companion {
+        self.current.better(self.system(), |error| self.write_error(error))
+    }
+
+    /// The error of the current state, where it is known.
+    pub(super) fn error_of_state(&self) -> Option<Vec<f64>> {
+        let mut error = vec![0.0; self.current.y().len()];
+        self.write_error(&mut error).then_some(error)
+    }
+
+    fn write_error(&self, error: &mut [f64]) -> bool {
+        let time = self.time();
+        match &self.companion {
             Some(companion) => companion.error(time, self.current.y(), error),
-            None => self.integrator.error(system, time, error),
-        })
+            None => self.integrator.error(self.system(), time, error),
+        }
     }
 
     /// The current state compared with that without an error.
     fn compare(&self, better: &CachedState) -> ErrorEstimate {
         let (here, there, system) = (self.current.state(), better.state(), self.system());
-        let energy = (here.energy(system) - there.energy(system)).abs();
-        let mut found = ErrorEstimate { energy, ..ErrorEstimate::default() };
+        // No number is better than its own rounding.
+        let rounding = |number: [f64; 3]| f64::EPSILON * apart(number, [0.0; 3]);
+        let energy = here.energy(system);
+        let energy = (energy - there.energy(system)).abs().max(f64::EPSILON * energy.abs());
+        let turn = if here.bodies().is_empty() { 0.0 } else { f64::EPSILON };
+        let mut found = ErrorEstimate { energy, turn, ..ErrorEstimate::default() };
         for (a, b) in here.bodies().iter().zip(there.bodies()) {
             let (a, b) = (BodyFrame::from(a), BodyFrame::from(b));
             let turn = apart(a.u, b.u).max(apart(a.v, b.v)).max(apart(a.w, b.w));
-            found.position = found.position.max(apart(a.position, b.position));
+            found.position = found.position.max(apart(a.position, b.position)).max(rounding(a.position));
             found.turn = found.turn.max(turn);
-            found.velocity = found.velocity.max(apart(a.velocity, b.velocity));
-            found.angular_velocity =
-                found.angular_velocity.max(apart(a.angular_velocity, b.angular_velocity));
+            found.velocity = found.velocity.max(apart(a.velocity, b.velocity)).max(rounding(a.velocity));
+            let spin = apart(a.angular_velocity, b.angular_velocity).max(rounding(a.angular_velocity));
+            found.angular_velocity = found.angular_velocity.max(spin);
         }
         found
     }

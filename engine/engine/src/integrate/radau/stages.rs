@@ -52,6 +52,8 @@ pub struct Stages {
     /// One by the error that each number may have.
     scale: Vec<f64>,
     updates: Updates,
+    /// Whether one iteration more is made than the tolerance asks for.
+    pub further: bool,
 }
 
 /// Whether the polynomial of the last step says something about one of size h.
@@ -85,6 +87,7 @@ impl Stages {
             weights: vec![0.0; s],
             scale: Vec::with_capacity(n),
             updates: Updates::new(s * n),
+            further: false,
         }
     }
 
@@ -108,6 +111,7 @@ impl Stages {
         let [wanted, enough] = [ROUNDING.0, ROUNDING.1].map(|rounding| (rounding / estimated).max(SOLVED));
         let most = self.max_iterations();
         let (mut size_before, mut rate, mut contraction) = (0.0f64, 0.0f64, 0.0f64);
+        let mut solved = None;
         self.updates.restart();
         for iteration in 0..most {
             if !self.evaluate(system, last, factors.h, iteration == 0) {
@@ -117,6 +121,9 @@ impl Stages {
             let size =
                 self.updates.improve(&self.scale) / (self.scale.len() as f64 * self.z.len() as f64).sqrt();
             self.apply();
+            if solved.is_some() {
+                return solved;
+            }
             if iteration > 0 {
                 rate = size / size_before;
                 // Corrections near rounding say nothing of how others shrink.
@@ -142,7 +149,10 @@ impl Stages {
                 rate < DIVERGING && rate / (1.0 - rate) * size <= wanted
             };
             if converged {
-                return Some(Solved { iterations: iteration + 1, contraction });
+                solved = Some(Solved { iterations: iteration + 1, contraction });
+                if !self.further {
+                    return solved;
+                }
             }
         }
         (size_before <= enough).then_some(Solved { iterations: most, contraction })
