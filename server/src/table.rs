@@ -39,16 +39,13 @@ impl<W: Write> TextTable<W> {
     /// Writes a row: as few digits as give each number back exactly.
     pub fn row(&mut self, row: &[f64]) -> io::Result<()> {
         self.line.clear();
-        let mut digits = zmij::Buffer::new();
-        for (index, number) in row.iter().enumerate() {
-            if index > 0 {
-                self.line.push(b',');
-            }
-            let text = digits.format(*number);
-            self.line.extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());
-        }
-        self.line.push(b'\n');
+        append_row(&mut self.line, row);
         self.out.write_all(&self.line)
+    }
+
+    /// Writes rows that [`append_row`] has put together.
+    pub fn rows(&mut self, text: &[u8]) -> io::Result<()> {
+        self.out.write_all(text)
     }
 
     /// Writes what is still held back, and returns what was written to.
@@ -56,6 +53,19 @@ impl<W: Write> TextTable<W> {
         self.out.flush()?;
         Ok(self.out)
     }
+}
+
+/// Appends a row and the end of its line: as few digits as give each number back exactly.
+pub fn append_row(text: &mut Vec<u8>, row: &[f64]) {
+    let mut digits = zmij::Buffer::new();
+    for (index, number) in row.iter().enumerate() {
+        if index > 0 {
+            text.push(b',');
+        }
+        let number = digits.format(*number);
+        text.extend_from_slice(number.strip_suffix(".0").unwrap_or(number).as_bytes());
+    }
+    text.push(b'\n');
 }
 
 /// A field, in quotation marks if it needs them.

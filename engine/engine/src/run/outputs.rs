@@ -1,6 +1,9 @@
 //! Chosen numbers of a run as the columns of a table: [`Output`] says which.
 
 mod columns;
+mod moments;
+
+pub use moments::{Moment, RowWriter};
 
 use super::{ErrorEstimate, Simulation};
 use crate::integrate::add_power;

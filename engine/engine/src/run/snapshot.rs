@@ -1,6 +1,7 @@
 //! Snapshots: states of a run that are kept, and can be restored after the run has gone on.
 
 use super::{Simulation, StateView};
+use crate::integrate::Integrator;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -35,6 +36,12 @@ impl Simulation {
     pub fn snapshot(&self) -> Snapshot {
         let angles = self.current.state().angles().iter().map(|angle| angle.value).collect();
         Snapshot { time: self.time(), state: self.current.y().to_vec(), angles }
+    }
+
+    /// A copy that cannot go on and takes little room.
+    pub(super) fn without_integrator(&self) -> Self {
+        let integrator = Integrator::ended(self.time(), self.current.y());
+        Self { integrator, companion: None, before_branching: None, ..self.clone() }
     }
 
     /// The state of a snapshot, with all that can be computed from it. `None` if the snapshot belongs to other coordinates.

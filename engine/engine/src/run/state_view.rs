@@ -1,6 +1,6 @@
 //! A state of a run, and what is computed from it.
 
-use super::{Frame, MarkerFrame, Simulation};
+use super::{Frame, MarkerFrame, Simulation, Snapshot};
 use crate::error::EngineError;
 use crate::reactions::matrices::{self, Symmetric};
 use crate::reactions::report::{Convention, ReactionReport, report};
@@ -81,6 +81,23 @@ impl CachedState {
         self.state.set_revolutions(turns);
         let (q, q_dot) = self.y.split_at(mechanism.system.coordinates);
         self.state.set(&mechanism.system, time, q, q_dot);
+    }
+
+    /// Changes to a snapshot of the same run, with its error where that is known; no work is added to what the run has counted.
+    pub fn take_over(&mut self, system: &System, snapshot: &Snapshot, error: Option<&[f64]>) {
+        self.results = std::mem::take(&mut self.results).spare();
+        self.time = snapshot.time;
+        self.y.copy_from_slice(&snapshot.state);
+        self.state.set_revolutions(snapshot.angles.iter().copied());
+        let (q, q_dot) = self.y.split_at(system.coordinates);
+        self.state.set(system, self.time, q, q_dot);
+        self.work(|| 0.0);
+        self.better(system, |out| {
+            if let Some(error) = error {
+                out.copy_from_slice(error);
+            }
+            error.is_some()
+        });
     }
 
     /// The state y = (q, q̇) at another time, s, whose angles, rad, are known to less than half a turn.

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used)] // a test that cannot go on says so
 
 use triad_engine::prelude::*;
-use triad_engine::run::Outputs;
+use triad_engine::run::{Outputs, RowWriter};
 use triad_engine::scene::{Output, OutputKind};
 
 /// The numbers of the current state by the names of their columns.
@@ -105,6 +105,37 @@ fn the_choice_of_outputs_changes_no_bit_of_the_motion_and_rows_repeat_no_solutio
             assert_eq!((plain.q(), plain.q_dot()), (chosen.q(), chosen.q_dot()), "{name}");
             // The solver that is used again finds what a new one finds.
             assert_eq!(chosen.multipliers(), chosen.clone().multipliers(), "{name}");
+        }
+    }
+}
+
+/// Of a machine with a load, a driver and turns, by a series and by a method with a second solution.
+#[test]
+fn a_row_is_the_same_whenever_it_is_written() {
+    let mut scenes = vec![machine()];
+    for name in ["n-four-bar:2", "spatial-slider-crank:mbdyn", "spatial-double-pendulum"] {
+        scenes.push(catalogue::scene(name).unwrap());
+    }
+    for scene in &mut scenes {
+        scene.simulation.outputs = all();
+        for integrator in [IntegratorKind::Taylor, IntegratorKind::Dop853] {
+            scene.simulation.integrator = integrator;
+            let mut run = Simulation::new(scene).unwrap();
+            let outputs = Outputs::new(&run);
+            let mut writer = RowWriter::new(&run, &outputs);
+            let mut kept = Vec::new();
+            for step in 0..30 {
+                run.advance_to(0.07 * f64::from(step)).unwrap();
+                let mut row = Vec::new();
+                outputs.write(&run, &mut row);
+                kept.push((outputs.moment(&run), row));
+            }
+            for (moment, now) in kept.iter().rev() {
+                let mut later = Vec::new();
+                writer.write(moment, &mut later);
+                let bits = |row: &[f64]| row.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+                assert_eq!(bits(now), bits(&later), "{} {integrator} at {} s", scene.name, moment.time());
+            }
         }
     }
 }

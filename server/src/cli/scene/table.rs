@@ -1,4 +1,7 @@
 //! Tables of a run: as text, or as an Arrow file for programs that read columns.
+//!
+//! The numbers of a row are computed and written out by as many threads as there are processors, while the run goes on one block of rows
+//! at a time: which thread writes a row changes no bit of it.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -10,10 +13,11 @@ use arrow_array::{ArrayRef, Float64Array, RecordBatch};
 use arrow_ipc::writer::FileWriter;
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use axum::http::StatusCode;
-use triad_engine::run::{Column, Outputs, Simulation};
+use rayon::prelude::*;
+use triad_engine::run::{Column, Moment, Outputs, RowWriter, Simulation};
 
 use crate::problem::Problem;
-use crate::table::{TextTable, all_columns, head};
+use crate::table::{TextTable, all_columns, append_row, head};
 
 /// Endings of files that are written as Arrow.
 const ARROW: [&str; 2] = ["arrow", "feather"];
@@ -22,11 +26,39 @@ const OTHERS: [&str; 3] = ["parquet", "xlsx", "mat"];
 /// Rows of an Arrow file that are written together.
 const BATCH: usize = 4096;
 
+/// Moments that wait until their rows are written together, and most threads that do so.
+const BLOCK: usize = 64;
+const MOST_WRITERS: usize = 8;
+
 /// A table of a run being written.
 pub(super) struct Table {
     outputs: Outputs,
-    row: Vec<f64>,
+    waiting: Vec<Moment>,
+    writers: Vec<Writer>,
     sink: Sink,
+}
+
+/// Writes a part of a block.
+struct Writer {
+    rows: RowWriter,
+    /// The numbers of its rows, one row after the other, and their text where that is wanted.
+    numbers: Vec<f64>,
+    text: Vec<u8>,
+}
+
+impl Writer {
+    fn write(&mut self, moments: &[Moment], as_text: bool) {
+        for moment in moments {
+            if as_text {
+                self.numbers.clear();
+            }
+            self.numbers.push(moment.time());
+            self.rows.write(moment, &mut self.numbers);
+            if as_text {
+                append_row(&mut self.text, &self.numbers);
+            }
+        }
+    }
 }
 
 /// Where rows go.
@@ -61,19 +93,38 @@ impl Table {
                 Sink::text(Box::new(file), run, &outputs).map_err(|error| unwritable(&error))?
             }
         };
-        Ok(Self { outputs, row: Vec::new(), sink })
+        let count = rayon::current_num_threads().clamp(1, MOST_WRITERS);
+        let rows = RowWriter::new(run, &outputs);
+        let writer = || Writer { rows: rows.clone(), numbers: Vec::new(), text: Vec::new() };
+        let writers = std::iter::repeat_with(writer).take(count).collect();
+        Ok(Self { outputs, waiting: Vec::with_capacity(BLOCK), writers, sink })
     }
 
-    /// Writes the current state.
+    /// Adds the current state.
     pub(super) fn row(&mut self, run: &Simulation) -> std::io::Result<()> {
-        self.row.clear();
-        self.row.push(run.time());
-        self.outputs.write(run, &mut self.row);
-        self.sink.row(&self.row)
+        self.waiting.push(self.outputs.moment(run));
+        if self.waiting.len() < BLOCK { Ok(()) } else { self.write_block() }
+    }
+
+    /// Writes the rows of all moments that wait.
+    fn write_block(&mut self) -> std::io::Result<()> {
+        let Self { waiting, writers, sink, .. } = self;
+        let as_text = matches!(sink, Sink::Text(_));
+        let share = waiting.len().div_ceil(writers.len()).max(1);
+        let parts = writers.par_iter_mut().zip(waiting.par_chunks(share));
+        parts.for_each(|(writer, moments)| writer.write(moments, as_text));
+        for writer in writers {
+            sink.rows(writer)?;
+            writer.numbers.clear();
+            writer.text.clear();
+        }
+        waiting.clear();
+        Ok(())
     }
 
     /// Writes what is still held back.
-    pub(super) fn finish(self) -> std::io::Result<()> {
+    pub(super) fn finish(mut self) -> std::io::Result<()> {
+        self.write_block()?;
         self.sink.finish()
     }
 }
@@ -101,12 +152,15 @@ impl Sink {
         Ok(Self::Arrow { writer, columns })
     }
 
-    fn row(&mut self, row: &[f64]) -> std::io::Result<()> {
+    /// Takes over the rows that a writer has made.
+    fn rows(&mut self, writer: &Writer) -> std::io::Result<()> {
         match self {
-            Self::Text(table) => table.row(row),
+            Self::Text(table) => table.rows(&writer.text),
             Self::Arrow { columns, .. } => {
-                for (column, number) in columns.iter_mut().zip(row) {
-                    column.push(*number);
+                for row in writer.numbers.chunks_exact(columns.len()) {
+                    for (column, number) in columns.iter_mut().zip(row) {
+                        column.push(*number);
+                    }
                 }
                 if columns.first().is_some_and(|column| column.len() >= BATCH) {
                     self.write_batch().map_err(std::io::Error::other)?;
@@ -149,18 +203,46 @@ mod tests {
     }
 
     #[test]
+    fn the_number_of_threads_changes_no_byte() {
+        let folder = tempfile::tempdir().unwrap();
+        let written = |threads: usize| {
+            let file = folder.path().join(format!("{threads}.csv"));
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                let mut run = run("spatial-slider-crank");
+                let mut table = Table::create(&file, &run).unwrap();
+                // Two blocks and a part of one.
+                for step in 0..2 * BLOCK + 5 {
+                    run.advance_to(0.005 * step as f64).unwrap();
+                    table.row(&run).unwrap();
+                }
+                table.finish().unwrap();
+            });
+            std::fs::read(file).unwrap()
+        };
+        let alone = written(1);
+        assert!(alone.len() > 100_000);
+        for threads in [2, 3, 7] {
+            assert!(written(threads) == alone, "{threads} threads");
+        }
+    }
+
+    #[test]
     fn text_and_arrow_hold_the_same_numbers_exactly() {
         let folder = tempfile::tempdir().unwrap();
         let files = ["a.csv", "a.arrow"].map(|name| folder.path().join(name));
         let mut run = run("spatial-slider-crank");
         let mut tables = files.each_ref().map(|file| Table::create(file, &run).unwrap());
+        let outputs = Outputs::new(&run);
         let mut rows = Vec::new();
         for step in 0..5 {
             run.advance_to(0.01 * f64::from(step)).unwrap();
             for table in &mut tables {
                 table.row(&run).unwrap();
             }
-            rows.push(tables[0].row.clone());
+            let mut row = vec![run.time()];
+            outputs.write(&run, &mut row);
+            rows.push(row);
         }
         for table in tables {
             table.finish().unwrap();
