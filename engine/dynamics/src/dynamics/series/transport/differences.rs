@@ -68,7 +68,7 @@ struct Missed<'a, const L: usize, B: Bodies<L>> {
     series: &'a [B::Natural],
     stride: usize,
     step: (usize, f64),
-    missed: &'a mut [[B::Natural; 2]],
+    out: &'a mut [[B::Natural; 2]],
 }
 
 impl<const L: usize, B: Bodies<L>> WithSimd for Missed<'_, L, B> {
@@ -76,15 +76,15 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Missed<'_, L, B> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { series, stride, step: (order, h), missed } = self;
-        for (b, missed) in missed.iter_mut().enumerate() {
+        let Self { series, stride, step: (order, h), out } = self;
+        for (b, out) in out.iter_mut().enumerate() {
             let coefficients = &series[b * stride..=b * stride + order];
             let mut second = B::zero();
             for k in (2..=order).rev() {
                 let c = moved::<L, B>(&B::zero(), (k * (k - 1)) as f64, &coefficients[k]);
                 second = moved::<L, B>(&c, h, &second);
             }
-            missed[0] = second;
+            out[0] = second;
         }
     }
 }
@@ -97,7 +97,7 @@ pub(super) fn find_missed<const L: usize, B: Bodies<L>>(
     step: (usize, f64),
     missed: &mut [[B::Natural; 2]],
 ) {
-    Arch::new().dispatch(Missed::<L, B> { series, stride, step, missed });
+    Arch::new().dispatch(Missed::<L, B> { series, stride, step, out: missed });
 }
 
 /// The size of an error, to be compiled likewise.
