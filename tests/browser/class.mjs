@@ -76,6 +76,19 @@ async function begin() {
   await page.getByRole("link", { name: "To the class" }).click();
   await page.getByRole("heading", { name: "Nobody has joined yet" }).or(page.getByText("Nobody has joined yet")).first().waitFor();
   await look(page, "empty");
+  await page.getByRole("button", { name: "For the whole hall" }).click();
+  await page.getByRole("dialog").getByText("Join the class").waitFor();
+  await look(page, "for-the-hall", { fullPage: false });
+  await page.keyboard.press("Escape");
+  // Who types the code of the class where that of a lecture is asked for comes to the class.
+  const { join_code } = await page.evaluate(() => fetch("/api/v1/course").then((reply) => reply.json()));
+  const guest = await visitor("guest");
+  await guest.goto(`${address}/room`);
+  await guest.getByLabel("Code of the room").fill(join_code);
+  await guest.keyboard.press("Enter");
+  await guest.getByRole("button", { name: "Join the class" }).waitFor();
+  assert.equal(await guest.getByLabel("Code of the class").inputValue(), join_code);
+  await guest.context().close();
   // Dates and questions are there before anybody has joined.
   await page.getByRole("link", { name: /simple pendulum/i }).click();
   await page.getByRole("heading", { name: "When it is handed in, and what is told" }).waitFor();
