@@ -71,6 +71,13 @@ fn swallowed(system: &System) -> f64 {
     PenaltyParameters { alpha, omega, mu }.min_tolerance(system)
 }
 
+/// Kinetic energy below which a mechanism rests: of all its mass, moving by no more than the rounding of its length in the whole run, J.
+fn resting_energy(system: &System) -> f64 {
+    let mass: f64 = system.bodies.iter().map(|body| body.mass).sum();
+    let speed = f64::EPSILON * system.length / system.model.settings.duration;
+    0.5 * mass * speed * speed
+}
+
 impl Simulation {
     /// Cost and accuracy up to the current state.
     ///
@@ -151,7 +158,7 @@ impl Simulation {
             return doubts;
         }
         let (system, current) = (&self.mechanism.system, self.current.state());
-        let kinetic = self.max_kinetic_energy.max(current.kinetic_energy(system));
+        let kinetic = self.max_kinetic_energy.max(current.kinetic_energy(system)).max(resting_energy(system));
         let signs = violation::Signs {
             passed: singularities.first().map(|passed| passed.time),
             drift: if drift == 0.0 {

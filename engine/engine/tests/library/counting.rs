@@ -130,3 +130,16 @@ fn singular_starts_stay_found() {
         assert!(found.notes.iter().any(|note| note.contains("singular")), "{axial} {:?}", found.notes);
     }
 }
+
+/// Where nothing moves, velocities are rounding, and what their energies differ by says nothing.
+#[test]
+fn a_mechanism_at_rest_raises_no_doubt() {
+    for integrator in [IntegratorKind::Radau, IntegratorKind::Dop853] {
+        let mut scene = four_bar(0.7, 1e-3, Coordinates::Full);
+        scene.gravity = [0.0; 3].into();
+        scene.simulation.integrator = integrator;
+        let mut run = Simulation::new(&scene).unwrap();
+        run.advance_to(0.02).unwrap();
+        assert_eq!(run.summary().doubts, [""; 0], "{integrator}");
+    }
+}
