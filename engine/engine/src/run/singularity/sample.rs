@@ -49,28 +49,3 @@ fn angle_above(sine: f64) -> f64 {
     let slope = ((-0.018_729_3 * x + 0.074_261) * x - 0.212_114_4) * x + 1.570_728_8;
     (FRAC_PI_2 - 1e-4 - (1.0 - x).sqrt() * slope).max(0.0)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_bound_is_below_the_arcsine_and_near_it() {
-        for k in 0..=100_000 {
-            let sine = f64::from(k) * 1e-5;
-            let below = libm::asin(sine) - angle_above(sine);
-            assert!((0.0..=2e-4).contains(&below), "{sine}: {below}");
-        }
-    }
-
-    #[test]
-    fn a_redundant_joint_is_far_from_everything() {
-        let mut sample = Sample::new(3);
-        sample.resize(3);
-        sample.products.copy_from_slice(&[0.25, 1e-9, 2.0]);
-        sample.measure(&[1.0, 1e-8, 1.0], 0.0);
-        assert_eq!(sample.roots[..1], [0.5]);
-        assert_eq!(sample.roots[2], 1.0);
-        assert_eq!(sample.angles[1], f64::INFINITY);
-    }
-}
