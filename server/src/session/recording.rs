@@ -224,9 +224,10 @@ fn unrecorded(error: RecordError) -> Problem {
 mod tests {
     use std::sync::atomic::{AtomicBool, Ordering};
 
+    use axum::body::Bytes;
     use rerun::external::re_log_encoding::DecoderApp;
     use rerun::external::re_log_types::StoreKind;
-    use rerun::log::{Chunk, LogMsg};
+    use rerun::log::{Chunk, LogMsg, TimeColumn};
     use triad_engine::run::Simulation;
     use triad_engine::scene::catalogue;
     use triad_session::change::SceneChange;
@@ -245,8 +246,7 @@ mod tests {
                 let chunk = Chunk::from_arrow_msg(&chunk).expect("a chunk");
                 let of_bodies = chunk.entity_path().to_string().starts_with("/world/bodies");
                 let found = chunk.timelines().get(&TIMELINE.into()).filter(|_| of_bodies);
-                times
-                    .extend(found.into_iter().flat_map(|found| found.times_raw()).map(|at| *at as f64 / 1e9));
+                times.extend(found.into_iter().flat_map(TimeColumn::times_raw).map(|at| *at as f64 / 1e9));
             }
         }
         times.sort_by(f64::total_cmp);
@@ -279,7 +279,7 @@ mod tests {
         assert_eq!(told(&seen), all, "who watched from the beginning has every sample");
         let Some(Delivery::Blocks(blocks)) = hub.watch().poll() else { panic!("a recording") };
         let late = told(&blocks);
-        let sent: usize = blocks.iter().map(|block| block.len()).sum();
+        let sent: usize = blocks.iter().map(Bytes::len).sum();
         assert!(hub.bytes() == sent && sent < 700_000, "{sent} bytes");
         assert_eq!((late.first(), late.last()), (Some(&0.0), Some(&10.0)));
         let gap = late.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);

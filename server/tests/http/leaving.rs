@@ -132,7 +132,7 @@ async fn a_check_and_a_robot_wait_for_their_turn_and_are_not_begun_for_who_leave
     let waiting = async |more: usize| {
         let all = async {
             while app.work.waiting() < more {
-                yield_now().await
+                yield_now().await;
             }
         };
         timeout(PATIENCE, all).await.expect("they wait");
@@ -189,7 +189,7 @@ async fn a_preview_of_a_regrade_ends_as_its_caller_leaves() {
             tokio::spawn(async move { preview(&asked, identifier(), HOME, &lesson, told).await.map(drop) });
         let begun = async {
             while progress.now().0 == 0 {
-                yield_now().await
+                yield_now().await;
             }
         };
         timeout(PATIENCE, begun).await.expect("begins");
@@ -201,7 +201,7 @@ async fn a_preview_of_a_regrade_ends_as_its_caller_leaves() {
         // Whoever computes tells how far it is.
         let ended = async {
             while Arc::strong_count(&progress) > 1 {
-                yield_now().await
+                yield_now().await;
             }
         };
         timeout(PATIENCE, ended).await.expect("ends");

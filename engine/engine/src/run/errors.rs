@@ -134,7 +134,7 @@ impl Simulation {
         let energy = here.energy(system);
         let energy = (energy - there.energy(system)).abs().max(f64::EPSILON * energy.abs());
         let turn = if here.bodies().is_empty() { 0.0 } else { f64::EPSILON };
-        let mut found = ErrorEstimate { energy, turn, ..ErrorEstimate::default() };
+        let mut found = ErrorEstimate { turn, energy, ..ErrorEstimate::default() };
         for (a, b) in here.bodies().iter().zip(there.bodies()) {
             let (a, b) = (BodyFrame::from(a), BodyFrame::from(b));
             let turn = apart(a.u, b.u).max(apart(a.v, b.v)).max(apart(a.w, b.w));

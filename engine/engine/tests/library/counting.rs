@@ -136,7 +136,7 @@ fn singular_starts_stay_found() {
 fn a_mechanism_at_rest_raises_no_doubt() {
     for integrator in [IntegratorKind::Radau, IntegratorKind::Dop853] {
         let mut scene = four_bar(0.7, 1e-3, Coordinates::Full);
-        scene.gravity = [0.0; 3].into();
+        scene.gravity = [0.0; 3];
         scene.simulation.integrator = integrator;
         let mut run = Simulation::new(&scene).unwrap();
         run.advance_to(0.02).unwrap();
