@@ -82,9 +82,15 @@ async fn handed_in(store: &Arc<Store>, lesson: &Lesson, kind: &'static str, coun
 fn edited(lesson: &Lesson) -> Lesson {
     let mut bundle: Value = serde_json::from_str(&lesson.bundle()).unwrap();
     let text = bundle["files"]["exercise.toml"].as_str().unwrap().to_owned();
-    let edited =
-        text.replace("\nright = \"", "\nright = \"Edited. ").replace("\nright = '", "\nright = 'Edited. ");
-    bundle["files"]["exercise.toml"] = edited.into();
+    let line = |line: &str| match line.strip_prefix("right = ") {
+        // One quote, or three of those that reach over lines.
+        Some(rest) => {
+            let (quotes, words) = rest.split_at(if rest.starts_with("\"\"\"") { 3 } else { 1 });
+            format!("right = {quotes}Edited. {words}\n")
+        }
+        None => format!("{line}\n"),
+    };
+    bundle["files"]["exercise.toml"] = text.lines().map(line).collect::<String>().into();
     bundle["hash"] = "edited".into();
     Lesson::from_bundle(&bundle.to_string()).unwrap()
 }
