@@ -33,27 +33,22 @@ impl SceneBounds {
         ] {
             if count > limit {
                 let detail = format!("the scene has {count} {what}, {taker} takes {limit}");
-                return Err(Refusal::new(
-                    StatusCode::UNPROCESSABLE_ENTITY,
-                    "scene-too-large",
-                    detail.clone(),
-                    "make the scene smaller, or run it on the command line: triad run SCENE",
-                )
-                .at(format!("/{list}"), detail));
+                let hint = "make the scene smaller, or run it on the command line: triad run SCENE";
+                return Err(too_large(&format!("/{list}"), detail, hint));
             }
         }
         if !products_within(scene, MOST_PRODUCTS) {
             let detail = format!(
                 "too many joints meet at the same bodies, by way of others too, for what {taker} takes"
             );
-            return Err(Refusal::new(
-                StatusCode::UNPROCESSABLE_ENTITY,
-                "scene-too-large",
-                detail.clone(),
-                "leave out joints that hold again what others hold, or run it on the command line: triad run SCENE",
-            )
-            .at("/joints", detail));
+            let hint = "leave out joints that hold again what others hold, or run it on the command line: triad run SCENE";
+            return Err(too_large("/joints", detail, hint));
         }
         Ok(())
     }
+}
+
+/// A scene that asks for more than is taken, at the list that is too long.
+fn too_large(list: &str, detail: String, hint: &str) -> Refusal {
+    Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, "scene-too-large", detail.clone(), hint).at(list, detail)
 }
