@@ -130,15 +130,22 @@ def quartiles(values):
     return {"median": float(middle), "low": float(low), "high": float(high)}
 
 
-def alternate(ours, theirs, our_row, their_row, rounds):
-    """Rounds of Triad and the other, in turns; medians of each round's repeats."""
+BARE = {"estimate": "false"}
+"""Triad without the estimate of its errors, which the others do not make."""
 
-    times = ([], [])
+
+def alternate(ours, theirs, our_row, their_row, rounds):
+    """Rounds of Triad, Triad without its estimate and the other, in turns; medians of each round's repeats."""
+    own, other = our_row["setting"], their_row["setting"]
+    runs = {"triad": (ours, own), "bare": (ours, own | BARE), "other": (theirs, other)}
+    times = {name: [] for name in runs}
     for _ in range(rounds):
-        for program, row, list_ in ((ours, our_row, times[0]), (theirs, their_row, times[1])):
-            list_.append(statistics.median(program.ask(REPEATS, row["setting"])))
-    ratios = [b / a for a, b in zip(*times, strict=True)]
-    return {"triad": quartiles(times[0]), "other": quartiles(times[1]), "ratio": quartiles(ratios)}
+        for name, (program, setting) in runs.items():
+            times[name].append(statistics.median(program.ask(REPEATS, setting)))
+    found = {name: quartiles(list_) for name, list_ in times.items()}
+    for name, own in (("ratio", times["triad"]), ("bare_ratio", times["bare"])):
+        found[name] = quartiles([b / a for a, b in zip(own, times["other"], strict=True)])
+    return found
 
 
 def duel(ours, theirs, our_rows, rows, rounds):
@@ -212,21 +219,22 @@ def cell(found):
         return "not reached"
     if "ratio" not in found:
         return f"{found['other_setting']['seconds'] * 1e3:.3g} ms"
-    setting, ratio = found["other_setting"], found["ratio"]["median"]
-    return f"{found['other']['median'] * 1e3:.3g} ms (× {ratio:.2g}, {setting['family']})"
+    setting, ratio, bare = found["other_setting"], found["ratio"]["median"], found["bare_ratio"]["median"]
+    return f"{found['other']['median'] * 1e3:.3g} ms (× {ratio:.2g}; {bare:.2g} without, {setting['family']})"
 
 
 def table(results, options):
-    """Everything as one table in Markdown."""
+    """Everything as one table in Markdown; "without" is without the estimate of errors."""
     head = ["problem", "error, m", "Triad", *options.only]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     for name, result in results.items():
         for index, target in enumerate(TARGETS):
             duels = [result["others"][other]["duels"][index] for other in options.only]
-            own = [d["triad"]["median"] for d in duels if "triad" in d]
+            own, bare = ([d[kind]["median"] for d in duels if kind in d] for kind in ("triad", "bare"))
             row = cheapest(result["triad"], target)
             own = own or ([row["seconds"]] if row else [])
             triad = f"{statistics.median(own) * 1e3:.3g} ms" if own else "not reached"
+            triad += f" ({statistics.median(bare) * 1e3:.3g} without)" if bare else ""
             cells = []
             for other, found in zip(options.only, duels, strict=True):
                 rows = result["others"][other]["rows"]

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 import reference
-from compare import TARGETS, Program, cheapest, quartiles
+from compare import TARGETS, Program, alternate, cheapest
 from run import PLACE, ROOT, build_triad, command
 
 DATA = ROOT / "tests" / "data" / "problems"
@@ -111,16 +111,13 @@ def compare(name, triad, peer, rounds, folder):
             if not mine or not found:
                 cells.append("not reached" if not found else f"{found['seconds'] * 1e3:.3g} ms")
                 continue
-            pairs = [
-                (np.median(ours.ask(3, mine["setting"])), np.median(theirs.ask(3, found["setting"])))
-                for _ in range(rounds)
-            ]
-            ratio = quartiles([b / a for a, b in pairs])["median"]
-            time = float(np.median([b for _, b in pairs])) * 1e3
-            mine["seconds"] = float(np.median([a for a, _ in pairs]))
+            times = alternate(ours, theirs, mine, found, rounds)
+            mine |= {"seconds": times["triad"]["median"], "bare": times["bare"]["median"]}
             note = f", {found['setting']['solver']}" if label == "IDA" else ""
-            cells.append(f"{time:.3g} ms (× {ratio:.2g}{note})")
+            ratios = [times[kind]["median"] for kind in ("ratio", "bare_ratio")]
+            cells.append(f"{times['other']['median'] * 1e3:.3g} ms (× {ratios[0]:.2g}; {ratios[1]:.2g} without{note})")
         shown = f"{mine['seconds'] * 1e3:.3g} ms" if mine else "not reached"
+        shown += f" ({mine['bare'] * 1e3:.3g} without)" if mine and "bare" in mine else ""
         print(f"| {name} | {target:.0e} | {shown} | " + " | ".join(cells) + " |", flush=True)
     ours.stop()
     theirs.stop()

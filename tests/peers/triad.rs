@@ -1,7 +1,8 @@
 //! Triad as one of the programs that `run.py` compares: it answers requests from standard input, one a line.
 //!
 //! `triad-peer SCENE DURATION`, where SCENE is a built-in one or a file, then lines `REPEATS FILE NAME=VALUE …`. FILE gets times
-//! and points as doubles (`-`: no file), 100 times a second unless `samples=N` asks for N of equal distances; the answer is `{"times": […]}` in processor seconds of integration alone, or `{"error": "…"}`.
+//! and points as doubles (`-`: no file), 100 times a second unless `samples=N` asks for N of equal distances; `estimate=false` leaves
+//! out the estimate of errors. The answer is `{"times": […]}` in processor seconds of integration alone, or `{"error": "…"}`.
 
 use std::error::Error;
 use std::io::{BufRead, Write};
@@ -45,11 +46,13 @@ fn measure(name: &str, scene: &mut Scene, line: &str) -> Result<Value, Box<dyn E
     let repeats: usize = words.next().ok_or("how many repeats?")?.parse()?;
     let file = words.next().ok_or("which file?")?;
     let mut samples = (RATE * scene.simulation.duration).round();
+    scene.simulation.error_estimate = true;
     for word in words {
         match word.split_once('=').ok_or("a setting is NAME=VALUE")? {
             ("integrator", value) => scene.simulation.integrator = serde_json::from_value(json!(value))?,
             ("tolerance", value) => scene.simulation.tolerance = value.parse()?,
             ("samples", value) => samples = value.parse()?,
+            ("estimate", value) => scene.simulation.error_estimate = value.parse()?,
             (other, _) => return Err(format!("there is no setting {other}").into()),
         }
     }

@@ -11,6 +11,9 @@ use crate::cli::clock::Clock;
 use crate::cli::terminal::{print_json, print_line};
 use crate::problem::Problem;
 
+/// Most joints that are named at singular positions.
+const NAMES: usize = 6;
+
 /// What is known of a run besides its own state.
 pub(super) struct Found<'a> {
     /// Why it ended early.
@@ -58,10 +61,12 @@ pub(super) fn report(
     let to_stderr = options.out.as_deref().is_some_and(|path| path.as_os_str() == "-");
     let say = |line: &str| if to_stderr { eprintln!("{line}") } else { print_line(line) };
     say(&format!("{}: {} s of {} s", scene.name, summary.time, scene.simulation.duration));
-    say(&accuracy(&summary, reactions));
-    for line in lines(&summary, verified, &notes) {
-        say(&line);
+    // Without a step the figures would be those of the start.
+    if stopped.is_none() || summary.steps > 0 {
+        say(&accuracy(&summary, reactions));
+        figures(&summary, verified).iter().for_each(|line| say(line));
     }
+    notes.iter().for_each(|note| say(&format!("  note                   {note}")));
     say(&clock.line());
     for event in simulation.events() {
         let end = if event.stop { "; the run ends there" } else { "" };
@@ -79,6 +84,13 @@ pub(super) fn report(
     if let Some(problem) = stopped {
         eprintln!("{} {problem}", crate::cli::terminal::error_label());
     }
+}
+
+/// The first of many names; all are in the JSON.
+fn shortened(names: &[String]) -> String {
+    let left = names.len().saturating_sub(NAMES);
+    let shown = names[..names.len() - left].join(", ");
+    if left > 0 { format!("{shown} and {left} more") } else { shown }
 }
 
 fn explanation(left: &SkippedItem) -> String {
@@ -108,7 +120,7 @@ fn accuracy(s: &Summary, reactions: Option<ReactionErrors>) -> String {
     line
 }
 
-fn lines(s: &Summary, verified: Option<&Verification>, notes: &[String]) -> Vec<String> {
+fn figures(s: &Summary, verified: Option<&Verification>) -> Vec<String> {
     let mut lines = vec![
         format!("  energy                 {:.9} J, drift {:.2e} J", s.energy, s.energy_drift),
         format!(
@@ -126,7 +138,7 @@ fn lines(s: &Summary, verified: Option<&Verification>, notes: &[String]) -> Vec<
     ];
     lines.push(format!("  integrator             {}: {}", s.integrator, s.reason));
     if let Some((first, last)) = s.singularities.first().zip(s.singularities.last()) {
-        let (count, joints) = (s.singularities.len(), first.joints.join(", "));
+        let (count, joints) = (s.singularities.len(), shortened(&first.joints));
         let times = if count == 1 {
             format!("at {:.6} s", first.time)
         } else {
@@ -145,6 +157,5 @@ fn lines(s: &Summary, verified: Option<&Verification>, notes: &[String]) -> Vec<
             v.bodies.iter().map(|b| format!("    {:<20} {:.2e} m, {:.2e} rad", b.body, b.position, b.turn));
         lines.extend(bodies);
     }
-    lines.extend(notes.iter().map(|note| format!("  note                   {note}")));
     lines
 }
