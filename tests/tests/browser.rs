@@ -1,7 +1,7 @@
 //! Lesson 2 in a real browser: open, step, play, see the viewer draw, answer wrongly, then rightly, and find the
 //! result after a restart of the server; then the workbench by keyboard, in a lecture and in trouble; then the drawing,
 //! without a graphics card and with busy cores; then the first page, frames in other sites, and what is taken along; then
-//! the documentation; then a free-body diagram by mouse and by keyboard; then what lessons need from each other; then a class as its
+//! the documentation; then how the window is shared, and a robot dropped on it; then a free-body diagram by mouse and by keyboard; then what lessons need from each other; then a class as its
 //! teacher runs it, and the account with which they sign in. What it saw is kept in `tests/output/`.
 
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
@@ -123,6 +123,11 @@ fn the_documentation_is_searched_and_read_in_light_and_dark_on_a_phone_and_from_
     let written = program::run(&["export", "docs", folder.path().to_str().unwrap()]);
     assert!(written.status.success(), "{}", String::from_utf8_lossy(&written.stderr));
     run("docs.mjs", &[folder.path()]);
+}
+
+#[test]
+fn picture_numbers_and_text_share_the_window_and_robots_are_dropped_on_it() {
+    run("sharing.mjs", &[]);
 }
 
 #[test]

@@ -8,9 +8,11 @@ import { applyTheme } from "./core/theme";
 import { homePage } from "./pages/home";
 import { lessonPage } from "./pages/lesson";
 import { notFoundPage } from "./pages/not-found";
+import { restoreDividers } from "./ui/divider";
 import { header } from "./ui/shell";
 
 applyTheme();
+restoreDividers();
 const speaks = loadLanguage();
 // A lesson will need KaTeX: it is fetched beside the lesson's text, not after it.
 if (pathOf(location).startsWith("/lessons/")) void loadMaths();

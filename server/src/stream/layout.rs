@@ -1,4 +1,4 @@
-//! How the viewer lays a recording out: the mechanism large, its plots beside it, the panels folded away.
+//! How the viewer lays a recording out: the mechanism large, each plot as large behind a tab of its own, the panels folded away.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -7,8 +7,8 @@ use re_sdk_types::blueprint::archetypes::{Background, EyeControls3D};
 use re_sdk_types::blueprint::components::{BackgroundKind, LoopMode, PanelState, PlayState};
 use re_sdk_types::components::Color;
 use rerun::blueprint::{
-    Blueprint, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial2DView, Spatial3DView,
-    TimePanel, TimeSeriesView, Vertical,
+    Blueprint, BlueprintPanel, ContainerLike, SelectionPanel, Spatial2DView, Spatial3DView, Tabs, TimePanel,
+    TimeSeriesView,
 };
 use rerun::external::re_log_types::{BlueprintActivationCommand, StoreId, StoreKind};
 use rerun::log::{Chunk, LogMsg, RowId};
@@ -84,7 +84,7 @@ impl Layout {
             _ => String::new(),
         };
         let (scratch, written) =
-            RecordingStreamBuilder::new(APPLICATION).with_blueprint(blueprint(mechanism)).memory()?;
+            RecordingStreamBuilder::new(APPLICATION).with_blueprint(blueprint(mechanism, &view)).memory()?;
         let is_layout = |message: &LogMsg| {
             message.store_id().kind() == StoreKind::Blueprint
                 && !matches!(message, LogMsg::BlueprintActivationCommand(_))
@@ -117,19 +117,22 @@ fn eye(description: &SceneDescription, from: Camera) -> EyeControls3D {
         .with_eye_up(single(up))
 }
 
-fn blueprint(mechanism: ContainerLike) -> Blueprint {
+/// Beside the mechanism the plots were cut: of the stage of a page they had a quarter each of a third.
+fn blueprint(mechanism: ContainerLike, shown_first: &str) -> Blueprint {
     let plot = |name: &str, origin: &str| {
         let contents = format!("{origin}/**");
         ContainerLike::from(TimeSeriesView::new(name).with_origin(origin).with_contents([contents]))
     };
-    let jacobian = Spatial2DView::new("Jacobian: rows × coordinates").with_origin("/jacobian");
-    let plots = Vertical::new([
-        plot("Energy in J", "/plots/energy"),
-        plot("Constraint violation in m, m/s", "/plots/violation"),
-        plot("Multipliers of the joints", "/plots/multipliers"),
+    // All names stand beside each other above a stage of 700 pixels.
+    let jacobian = Spatial2DView::new("Jacobian").with_origin("/jacobian");
+    let tabs = Tabs::new([
+        mechanism,
+        plot("Energy, J", "/plots/energy"),
+        plot("Violation, m and m/s", "/plots/violation"),
+        plot("Multipliers", "/plots/multipliers"),
         jacobian.into(),
     ]);
-    Blueprint::new(Horizontal::new([mechanism, plots.into()]).with_column_shares([2.0, 1.0]))
+    Blueprint::new(tabs.with_active_tab(shown_first))
         .with_auto_views(false)
         .with_auto_layout(false)
         .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Hidden))

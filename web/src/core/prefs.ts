@@ -15,7 +15,10 @@ type Key =
   | `said:${string}`
   | `slides:${string}`
   | "place"
-  | "voter";
+  | "voter"
+  | `divider:${string}`
+  | "room-name"
+  | "room-secret";
 
 export function recall(key: Key): string | null {
   try {

@@ -7,6 +7,7 @@ import { t } from "../core/texts";
 
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
+import { isMarkup } from "./markup";
 import { inText, type Meant, meantBy } from "./meant";
 import { lineOf, locate } from "./pointer";
 import { suggestions } from "./suggest";
@@ -34,11 +35,13 @@ export class SceneEditor {
   /** Ends a check that a newer text has overtaken. */
   private checking = new AbortController();
 
-  /** `changed` hears of each edit, `sound` of a text that the server has checked and can run, `unsound` of the line of a mistake. */
+  /** `changed` hears of each edit, `sound` of a text that the server has checked and can run, `unsound` of the line of a mistake,
+   * `robot` of a URDF that is to be imported. */
   constructor(
     private readonly changed: (text: string) => void,
     private readonly sound: (text: string) => void,
     private readonly unsound: (line: number) => void,
+    private readonly robot: (urdf: string) => void,
   ) {
     const { area, gutter } = this;
     const completion = suggestions(area, () => area.dispatchEvent(new Event("input")));
@@ -136,7 +139,10 @@ export class SceneEditor {
     const broken = syntaxProblem(text);
     if (broken) {
       this.mark([broken.line]);
-      this.result.replaceChildren(problemNotice(broken.problem));
+      const offers = isMarkup(text)
+        ? [{ label: t("Import it as a robot (URDF)"), run: () => this.robot(text) }]
+        : [];
+      this.result.replaceChildren(problemNotice(broken.problem, offers));
       return;
     }
     try {

@@ -1,12 +1,14 @@
 // Imports a robot from a URDF file, with an optional side-car that closes its loops, as the scene of one's own.
 
-import { api } from "../api/client";
+import { ApiError, api } from "../api/client";
 import type { ImportedRobot } from "../api/types";
 import { h } from "../core/dom";
 import { remember } from "../core/prefs";
 import { navigate } from "../core/router";
 import { t } from "../core/texts";
+import { dialog } from "../ui/dialog";
 import { problemNotice } from "../ui/notice";
+import { lineNamed } from "./markup";
 import { pretty } from "./pointer";
 
 const EXAMPLE =
@@ -26,9 +28,13 @@ export function urdfImport(target: string): HTMLElement {
       return;
     }
     button.disabled = true;
-    read(file, side.files?.[0])
-      .then((robot) => result.replaceChildren(...robotView(robot, target)))
-      .catch((error: unknown) => result.replaceChildren(problemNotice(error)))
+    void Promise.all([file.text(), side.files?.[0]?.text()])
+      .then(([text, beside]) =>
+        show(result, { name: file.name, urdf: text, side: beside }, (scene) => {
+          remember("scene-draft", scene);
+          navigate(target);
+        }),
+      )
       .finally(() => {
         button.disabled = false;
       });
@@ -43,10 +49,9 @@ export function urdfImport(target: string): HTMLElement {
       h(
         "p",
         { class: "help" },
-        t(
-          "A URDF is a tree of links. Loops are closed by a side-car: JSON with joints in the words of a scene, such as {example}.",
-          { example: EXAMPLE },
-        ),
+        t("Choose a file, drop it on this page, or paste its text."),
+        " ",
+        aboutSideCar(),
       ),
       h("label", { for: "urdf-file" }, t("URDF file")),
       urdf,
@@ -58,17 +63,68 @@ export function urdfImport(target: string): HTMLElement {
   );
 }
 
-async function read(urdf: File, side: File | undefined): Promise<ImportedRobot> {
-  return api.importUrdf(await urdf.text(), side ? JSON.parse(await side.text()) : undefined);
+const aboutSideCar = (): string =>
+  t(
+    "A URDF is a tree of links. Loops are closed by a side-car: JSON with joints in the words of a scene, such as {example}.",
+    { example: EXAMPLE },
+  );
+
+/** A robot as it came: the texts of its file and of its side-car. */
+export interface Robot {
+  name: string;
+  urdf: string;
+  side?: string | undefined;
 }
 
-function robotView({ scene, left_out: leftOut }: ImportedRobot, target: string): HTMLElement[] {
+/** Imports a robot that was dropped or pasted, and tells what became of it; `open` is given the text of its scene. */
+export function importDialog(robot: Robot, open: (scene: string) => void): void {
+  const side = h("input", { type: "file", id: "robot-side", class: "field", accept: ".json" });
+  const result = h("div", { class: "stack", "aria-live": "polite" }, h("p", null, t("It is being read …")));
+  const box = dialog(
+    t("Import a robot (URDF)"),
+    h(
+      "div",
+      { class: "stack" },
+      result,
+      h("label", { for: "robot-side" }, t("Side-car, if the robot has loops (JSON)")),
+      side,
+      h("p", { class: "help" }, aboutSideCar()),
+    ),
+  );
+  const read = (beside: string | undefined): Promise<void> =>
+    show(result, { ...robot, side: beside }, (scene) => {
+      box.close();
+      open(scene);
+    });
+  side.addEventListener("change", () => void side.files?.[0]?.text().then(read));
+  void read(robot.side);
+}
+
+/** Imports, and shows the robot or why it is none. */
+async function show(place: HTMLElement, robot: Robot, open: (scene: string) => void): Promise<void> {
+  try {
+    const side: unknown = robot.side === undefined ? undefined : JSON.parse(robot.side);
+    place.replaceChildren(...robotView(await api.importUrdf(robot.urdf, side), open));
+  } catch (error) {
+    const detail = error instanceof ApiError ? error.problem.detail : undefined;
+    const named = lineNamed(detail, robot.urdf);
+    const wrong =
+      error instanceof SyntaxError ? { title: t("The side-car is not JSON"), detail: error.message } : error;
+    place.replaceChildren(
+      problemNotice(wrong),
+      ...(named
+        ? [h("pre", { class: "named-line", tabindex: "0" }, h("code", null, `${named.line}  ${named.text}`))]
+        : []),
+    );
+  }
+}
+
+function robotView(
+  { scene, left_out: leftOut }: ImportedRobot,
+  open: (scene: string) => void,
+): HTMLElement[] {
   const bodies = t("{n} body | {n} bodies", { n: scene.bodies?.length ?? 0 });
   const joints = t("{n} joint | {n} joints", { n: scene.joints?.length ?? 0 });
-  const open = (): void => {
-    remember("scene-draft", pretty(scene));
-    navigate(target);
-  };
   return [
     h("p", null, h("b", null, scene.title ?? scene.name), `: ${bodies}, ${joints}.`),
     leftOut.length > 0
@@ -85,6 +141,14 @@ function robotView({ scene, left_out: leftOut }: ImportedRobot, target: string):
           ),
         )
       : h("p", null, t("Everything was carried over.")),
-    h("button", { type: "button", class: "button primary", onclick: open }, t("Open as your own scene")),
+    h(
+      "div",
+      { class: "row" },
+      h(
+        "button",
+        { type: "button", class: "button primary", onclick: () => open(pretty(scene)) },
+        t("Open as your own scene"),
+      ),
+    ),
   ];
 }

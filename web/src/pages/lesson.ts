@@ -13,6 +13,7 @@ import type { OwnRun } from "../exercise/field";
 import { predictionCounts } from "../prediction/counts";
 import { PredictionPanel } from "../prediction/panel";
 import { requestedView } from "../session/requested-view";
+import { Divider } from "../ui/divider";
 import { problemNotice, skeleton } from "../ui/notice";
 import { makePressable } from "./actions";
 import { handoutHead, printButton } from "./handout";
@@ -62,7 +63,7 @@ class LessonPage {
 
   parts(): HTMLElement[] {
     return [
-      h("div", { class: "lesson" }, this.text, this.bench, this.exercise),
+      besideText(this.text, this.bench, this.exercise),
       jumpBar(t("Parts of this lesson"), {
         text: t("Text"),
         mechanism: t("Mechanism"),
@@ -176,6 +177,22 @@ export function jumpBar(label: string, parts: Record<string, string>): HTMLEleme
     { class: "jump", "aria-label": label },
     ...Object.entries(parts).map(([id, name]) => h("a", { href: `#${id}` }, name)),
   );
+}
+
+/** Text and mechanism beside each other, with a line between them that is dragged. */
+export function besideText(text: HTMLElement, bench: HTMLElement, ...more: HTMLElement[]): HTMLElement {
+  const root = h("div", { class: "lesson" }, text);
+  const divider = new Divider({
+    label: t("Width of the text"),
+    divided: () => "text",
+    first: text,
+    whole: () => {
+      const { left, width } = root.getBoundingClientRect();
+      return { start: left, size: width };
+    },
+  });
+  root.append(divider.root, bench, ...more);
+  return root;
 }
 
 /** Keeps the place that the workbench will take, so that nothing jumps when it arrives. */

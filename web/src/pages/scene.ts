@@ -7,6 +7,8 @@ import { recall, remember, student } from "../core/prefs";
 import { type Page, setTitle } from "../core/router";
 import { t } from "../core/texts";
 import { SceneEditor } from "../editor/editor";
+import { importDialog } from "../editor/import";
+import { takeIncoming } from "../editor/incoming";
 import { pretty } from "../editor/pointer";
 import { ONE_BODY, TWO_BODIES } from "../editor/starters";
 import { requestedView } from "../session/requested-view";
@@ -14,8 +16,8 @@ import type { SharedView } from "../session/shared-view";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
 import { type WorkbenchOptions, workbench } from "../workbench/workbench";
-import { jumpBar, workbenchPlaceholder } from "./lesson";
-import { OWN_SCENE } from "./scenes";
+import { besideText, jumpBar, workbenchPlaceholder } from "./lesson";
+import { OWN_SCENE, openOwn } from "./scenes";
 
 /** A scene of one's own begins as this built-in one. */
 const STARTING_SCENE = "simple-pendulum";
@@ -75,6 +77,12 @@ class ScenePage {
   /** Where the browser keeps what was edited; a built-in scene is not kept. */
   private readonly draftKey: "scene-draft" | `scene-draft:${string}` | null;
   private endRun: (() => void) | undefined;
+  private readonly refuse: () => void;
+  /** Takes a scene from elsewhere: into one's own, where the text before can be had back. */
+  private readonly take = (text: string): void => {
+    if (this.subject.own) this.begin(text);
+    else openOwn(text);
+  };
   /** The text as it was loaded. */
   private original = "";
   /** The text that runs. */
@@ -94,14 +102,18 @@ class ScenePage {
       (line) => {
         this.status.textContent = t("Line {line}: see the remark below the text.", { line });
       },
+      (urdf) => importDialog({ name: t("The text"), urdf }, this.take),
     );
+    this.refuse = takeIncoming({ undoable: own, open: this.take });
     this.side = this.layout();
-    this.root = h("div", { class: "lesson is-scene" }, this.side, this.bench);
+    this.root = besideText(this.side, this.bench);
+    this.root.classList.add("is-scene");
     void this.load();
   }
 
   dispose(): void {
     this.leaving.abort();
+    this.refuse();
     this.editor.dispose();
     this.endRun?.();
   }

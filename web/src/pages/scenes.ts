@@ -2,10 +2,11 @@
 
 import { api } from "../api/client";
 import { h } from "../core/dom";
-import { recall } from "../core/prefs";
-import type { Page } from "../core/router";
+import { recall, remember } from "../core/prefs";
+import { navigate, type Page } from "../core/router";
 import { t } from "../core/texts";
 import { urdfImport } from "../editor/import";
+import { takeIncoming } from "../editor/incoming";
 import { cards } from "../gallery/cards";
 import { grouped } from "../gallery/groups";
 import { empty, problemNotice, skeleton } from "../ui/notice";
@@ -63,13 +64,21 @@ export function scenesPage(outlet: HTMLElement): Page {
     }
   };
   void load();
+  const refuse = takeIncoming({ undoable: false, open: openOwn });
   return {
     title: t("Scenes"),
     dispose: () => {
+      refuse();
       leaving.abort();
       for (const one of kept) one.dispose();
     },
   };
+}
+
+/** Puts a text in the place of one's own scene, and goes there. */
+export function openOwn(text: string): void {
+  remember("scene-draft", text);
+  navigate(`/scenes/${OWN_SCENE}`);
 }
 
 async function sceneGroups(signal: AbortSignal, kept: { dispose: () => void }[]): Promise<HTMLElement> {

@@ -15,6 +15,7 @@ import { Stage } from "../stage/stage";
 import { type Action, acting } from "./acting";
 import { placeMenu } from "./place-menu";
 import { trouble } from "./run-problems";
+import { sharing } from "./sharing";
 import { Transport } from "./transport";
 
 /** A slide's picture: pixels for each of the stage's, and how well it is kept. */
@@ -82,8 +83,10 @@ export function mountWorkbench(
   };
   session.on("view", waits);
   waits();
+  const shares = sharing(root, picture.root, details.root);
   root.replaceChildren(
     picture.root,
+    shares.divider,
     ...(options.asked ? [options.asked.root] : []),
     controls.root,
     ...(lecture ? [lecture.root] : []),
@@ -93,6 +96,7 @@ export function mountWorkbench(
   return {
     selectPanel: details.select,
     dispose: () => {
+      shares.dispose();
       lecture?.dispose();
       controls.dispose();
       picture.dispose();

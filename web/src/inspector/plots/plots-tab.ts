@@ -90,6 +90,12 @@ export class PlotsTab implements Panel {
     this.table.addEventListener("toggle", () => this.refresh());
     this.file.addEventListener("change", () => void this.readReference());
     onTheme(() => requestAnimationFrame(() => this.canvas.isConnected && this.refresh()));
+    let width = 0;
+    new ResizeObserver(() => {
+      if (this.canvas.clientWidth === width || this.canvas.clientWidth === 0) return;
+      width = this.canvas.clientWidth;
+      this.refresh();
+    }).observe(this.canvas);
   }
 
   refresh(): void {

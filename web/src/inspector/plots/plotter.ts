@@ -22,8 +22,9 @@ export interface Plot {
 const EDGE: uPlot.Series = { class: "edge", width: 0, points: { show: false } };
 /** Diameter of the mark at a sample, px. */
 const MARK = 5;
-/** Height of a plot, px. */
-const HEIGHT = 260;
+/** Height of a plot, px: beside the text, and at most where the inspector is wide. */
+const [LOW, HIGH] = [260, 420];
+const heightOf = (width: number): number => Math.max(LOW, Math.min(HIGH, Math.round(0.4 * width)));
 /** What changes while a plot stands. */
 interface Live {
   at: number;
@@ -48,7 +49,7 @@ export function draw(place: HTMLElement, drawing: Plot): void {
   }
   Object.assign(entry.live, { at: drawing.cursor, apart: drawing.apart });
   if (entry.plot.width !== place.clientWidth && place.clientWidth > 0)
-    entry.plot.setSize({ width: place.clientWidth, height: HEIGHT });
+    entry.plot.setSize({ width: place.clientWidth, height: heightOf(place.clientWidth) });
   entry.plot.setData(data);
 }
 
@@ -81,7 +82,7 @@ function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, live:
   const plot = new uPlot(
     {
       width: place.clientWidth || 400,
-      height: HEIGHT,
+      height: heightOf(place.clientWidth || 400),
       scales: { x: { time: false }, y: drawing.log ? { distr: 3 } : {} },
       axes: [
         { ...axis, label: t("Time, s"), labelFont: font, labelSize: 20 },

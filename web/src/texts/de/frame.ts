@@ -312,4 +312,28 @@ export const frame = {
   Ghost: "Schattenlauf",
   "Traces of the next kind of points": "Spuren der nächsten Art von Punkten",
   "result of an analysis": "Ergebnis einer Analyse",
+  "Drag, or use the arrow keys. A double-click puts it back.":
+    "Ziehen oder mit den Pfeiltasten bewegen. Ein Doppelklick stellt den Anfang wieder her.",
+  "Size of the picture": "Größe des Bildes",
+  "Width of the text": "Breite des Textes",
+  "Inspector over the whole width": "Inspektor über die ganze Breite",
+  "Inspector over the whole width (W)": "Inspektor über die ganze Breite (W)",
+  "Inspector over the whole width, or beside the text": "Inspektor über die ganze Breite oder neben dem Text",
+  "The inspector has the whole width; the text is hidden.":
+    "Der Inspektor hat die ganze Breite; der Text ist ausgeblendet.",
+  "The text stands beside the mechanism again.": "Der Text steht wieder neben dem Mechanismus.",
+  "Drop a scene (JSON) or a robot (URDF)": "Eine Szene (JSON) oder einen Roboter (URDF) hier ablegen",
+  "The text": "Der Text",
+  "{name} is too large for a scene or a robot.": "{name} ist zu groß für eine Szene oder einen Roboter.",
+  "{name} is neither a scene (JSON) nor a robot (URDF).":
+    "{name} ist weder eine Szene (JSON) noch ein Roboter (URDF).",
+  "This cannot be opened": "Das lässt sich nicht öffnen",
+  "Open {name}": "{name} öffnen",
+  "It takes the place of the scene that you have written.":
+    "Sie tritt an die Stelle der Szene, die du geschrieben hast.",
+  "Choose a file, drop it on this page, or paste its text.":
+    "Wähle eine Datei, lege sie auf dieser Seite ab oder füge ihren Text ein.",
+  "It is being read …": "Wird gelesen …",
+  "The side-car is not JSON": "Die Beidatei ist kein JSON",
+  "Import it as a robot (URDF)": "Als Roboter importieren (URDF)",
 };
