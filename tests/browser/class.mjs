@@ -84,7 +84,7 @@ async function begin() {
   const { join_code } = await page.evaluate(() => fetch("/api/v1/course").then((reply) => reply.json()));
   const guest = await visitor("guest");
   await guest.goto(`${address}/room`);
-  await guest.getByLabel("Code of the room").fill(join_code);
+  await guest.getByLabel("Code or name of the room").fill(join_code);
   await guest.keyboard.press("Enter");
   await guest.getByRole("button", { name: "Join the class" }).waitFor();
   assert.equal(await guest.getByLabel("Code of the class").inputValue(), join_code);

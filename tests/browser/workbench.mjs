@@ -169,7 +169,7 @@ async function lecture() {
   await presenter.keyboard.press("Escape");
   const [phone, loaded] = await follower("en");
   await phone.goto(`${address}/room`);
-  await phone.getByLabel("Code of the room").fill(code.toLowerCase());
+  await phone.getByLabel("Code or name of the room").fill(code.toLowerCase());
   await phone.getByRole("button", { name: "Join", exact: true }).click();
   const [german, loadedInGerman] = await follower("de");
   await german.goto(`${address}/room/${code}`);

@@ -131,6 +131,16 @@ fn picture_numbers_and_text_share_the_window_and_robots_are_dropped_on_it() {
 }
 
 #[test]
+fn a_room_keeps_its_name_for_the_term_and_who_is_early_waits_in_it() {
+    run("named-room.mjs", &[]);
+}
+
+#[test]
+fn what_the_server_says_is_german_on_a_german_page() {
+    run("told.mjs", &[]);
+}
+
+#[test]
 fn a_free_body_diagram_is_drawn_with_the_mouse_and_with_the_keyboard_alone() {
     run("diagram.mjs", &[]);
 }

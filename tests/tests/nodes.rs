@@ -99,3 +99,29 @@ fn a_server_that_comes_back_has_what_lived_in_it() {
     }
     assert_eq!(seen["time"], 0.25);
 }
+
+/// The link on the slides leads into the room, whichever server answers; where the lecture's server is gone it waits for the next one.
+#[test]
+fn a_room_with_a_name_is_found_by_way_of_the_others() {
+    let Some(postgres) = Postgres::start("a room with a name on several servers") else { return };
+    let (url, folder) = (postgres.database(), tempfile::tempdir().unwrap());
+    let (here, there) = (start(&url, folder.path(), "0"), start(&url, folder.path(), "0"));
+    let open = |server: &Server, run: &Reply| {
+        let wish =
+            json!({"session": run.json()["id"], "name": "mbs-2026", "secret": "an instructor's secret"});
+        server.post("/api/v1/rooms", &wish)
+    };
+    let room = "/api/v1/rooms/MBS-2026";
+    assert_problem(&there.get(room).json(), "unknown-room", "");
+    // Asked of one server, of a run that lives in the other.
+    assert_eq!(open(&there, &new_run(&here)).json()["code"], "mbs-2026");
+    for server in [&here, &there] {
+        assert_eq!(server.get(room).json()["title"], "Spatial double pendulum");
+    }
+    FollowerPage::join(&there.address, "mbs-2026", false).until("room", |room| room["code"] == "mbs-2026");
+    here.stop();
+    assert_problem(&there.get(room).json(), "room-not-open", "");
+    // Next week in the server that is left.
+    assert_eq!(open(&there, &new_run(&there)).status, 201);
+    assert_eq!(there.get(room).json()["code"], "mbs-2026");
+}

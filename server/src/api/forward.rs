@@ -9,6 +9,7 @@ use serde::Deserialize;
 
 use super::guard::cookie;
 use crate::app::App;
+use crate::lecture::named;
 use crate::nodes::{HANDED_ON, gone, hand_on};
 use crate::problem::Problem;
 use crate::store::Whereabouts;
@@ -45,7 +46,12 @@ pub(super) async fn where_it_lives(State(app): State<App>, mut request: Request,
             Err(problem) => return problem.into_response(),
         }
     } else {
-        belongs(&app, &matched, request.uri().path(), request.headers(), begins)
+        match named_elsewhere(&app, &matched, request.uri().path()).await {
+            // Where that has gone, nothing is open under the name.
+            Ok(Some(name)) => Belongs::Rather(name),
+            Ok(None) => belongs(&app, &matched, request.uri().path(), request.headers(), begins),
+            Err(problem) => return problem.into_response(),
+        }
     };
     let answer = match answer(&app, belongs, request, next).await {
         Ok(response) => response,
@@ -84,6 +90,14 @@ fn belongs(app: &App, matched: &str, path: &str, headers: &HeaderMap, begins: bo
         None
     };
     other.map_or(Belongs::Here, Belongs::There)
+}
+
+/// The name of another server, in which a lecture was opened last under the name of a room.
+async fn named_elsewhere(app: &App, matched: &str, path: &str) -> Result<Option<String>, Problem> {
+    let of_room = matched.starts_with("/api/v1/rooms/{code}").then(|| path.split('/').nth(4)).flatten();
+    let Some(name) = of_room.and_then(|typed| named::name(typed).ok()) else { return Ok(None) };
+    let node = app.store.node_of_room(&name).await?;
+    Ok(node.and_then(|node| app.node.other(&node).map(str::to_owned)))
 }
 
 /// A room is where the run is that it shows.

@@ -11,6 +11,7 @@
 
 mod audience;
 mod follower;
+pub mod named;
 mod question;
 mod registry;
 mod responses;
@@ -223,6 +224,12 @@ impl Lecture {
     pub fn show_session(&self, session: Arc<Session>) {
         self.live.send_replace(LiveView::Session(session));
         self.publish();
+    }
+
+    /// Goes on with another session, led from another page of the presenter's.
+    fn take_up(&self, session: Arc<Session>) {
+        self.presentation().touched = Instant::now();
+        self.show_session(session);
     }
 
     /// Asks a question; the one before is forgotten. Errors if a text or the number of choices is out of bounds.

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use axum::http::StatusCode;
 
-use super::{KeptLecture, Lecture};
+use super::{KeptLecture, Lecture, named};
 use crate::limits::Limits;
 use crate::nodes::Node;
 use crate::problem::Problem;
@@ -25,10 +25,20 @@ impl Lectures {
         Self { node, ..Self::default() }
     }
 
-    /// Opens a lecture for a session. Needs the async runtime. Errors if there are as many lectures as allowed.
-    pub fn open(&self, session: Arc<Session>, limits: &Limits) -> Result<Arc<Lecture>, Problem> {
+    /// Opens a lecture for a session, under a new code or under the name that its presenter chose: where a lecture is open under
+    /// that, it goes on with the session. Needs the async runtime. Errors if there are as many lectures as allowed.
+    pub fn open(
+        &self,
+        session: Arc<Session>,
+        named: Option<String>,
+        limits: &Limits,
+    ) -> Result<Arc<Lecture>, Problem> {
         self.expire(limits);
         let mut open = self.lock();
+        if let Some(lecture) = named.as_ref().and_then(|name| open.get(name)) {
+            lecture.take_up(session);
+            return Ok(Arc::clone(lecture));
+        }
         if open.len() >= limits.lectures {
             return Err(Problem::new(
                 StatusCode::SERVICE_UNAVAILABLE,
@@ -37,9 +47,8 @@ impl Lectures {
                 "close a room that is no longer needed, or start the server with a larger --max-rooms",
             ));
         }
-        let code = std::iter::repeat_with(|| self.node.code())
-            .find(|code| !open.contains_key(code))
-            .unwrap_or_default();
+        let mut codes = std::iter::repeat_with(|| self.node.code());
+        let code = named.or_else(|| codes.find(|code| !open.contains_key(code))).unwrap_or_default();
         let lecture = Lecture::open(code.clone(), session, limits.followers);
         open.insert(code, Arc::clone(&lecture));
         Ok(lecture)
@@ -61,9 +70,9 @@ impl Lectures {
         self.lock().values().for_each(|lecture| lecture.leave());
     }
 
-    /// The lecture with that code, in capitals or not. Errors if there is none.
+    /// The lecture with that code or name, in capitals or not. Errors if there is none.
     pub fn get(&self, code: &str) -> Result<Arc<Lecture>, Problem> {
-        let code = code.trim().to_uppercase();
+        let code = named::written(code);
         self.lock().get(&code).cloned().ok_or_else(|| {
             Problem::new(
                 StatusCode::NOT_FOUND,

@@ -10,7 +10,7 @@ use super::records::{self, SubmissionRow, VerdictRow};
 use super::{HOME, now, sql};
 
 /// Format of the database that this program writes.
-pub(super) const FORMAT: i64 = 9;
+pub(super) const FORMAT: i64 = 10;
 
 /// Makes the tables, or carries those of earlier formats over, within a transaction: another program that opens the
 /// same gradebook meanwhile waits.
@@ -52,6 +52,9 @@ pub(super) async fn migrate(transaction: &mut AnyConnection) -> Result<(), Store
     }
     if found < 9 {
         make(transaction, sql::ADDED_9).await?;
+    }
+    if found < 10 {
+        make(transaction, sql::ADDED_10).await?;
     }
     database::set_format(transaction, FORMAT).await
 }

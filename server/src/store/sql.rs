@@ -101,6 +101,11 @@ pub(super) const ADDED_8: &[&str] = &[
 /// What format 9 adds: the question that a decision is about, where it is not about a whole lesson.
 pub(super) const ADDED_9: &[&str] = &["ALTER TABLE decision ADD COLUMN question TEXT"];
 
+/// What format 10 adds: names of lecture rooms, whose each is, and in which server it was opened last.
+pub(super) const ADDED_10: &[&str] =
+    &["CREATE TABLE room (name TEXT PRIMARY KEY NOT NULL, owner TEXT NOT NULL, node TEXT NOT NULL, \
+     opened_at BIGINT NOT NULL)"];
+
 #[macro_use]
 mod of_person;
 
@@ -353,6 +358,14 @@ statements! {
     NODE = "SELECT address, seen_at FROM node WHERE name = $1";
     LEAVE_NODE = "UPDATE node SET seen_at = 0 WHERE name = $1 AND address = $2";
     FORGET_NODES = "DELETE FROM node WHERE seen_at > 0 AND seen_at < $1";
+
+    // Names of lecture rooms; see `rooms.rs`.
+    TAKE_ROOM = "INSERT INTO room (name, owner, node, opened_at) VALUES ($1, $2, $3, $4) ON CONFLICT (name) DO UPDATE SET \
+        node = $3, opened_at = $4 WHERE room.owner = $2";
+    ROOM = "SELECT node FROM room WHERE name = $1";
+    OTHER_ROOMS = "SELECT COUNT(*), COALESCE(SUM(CASE WHEN owner = $1 THEN 1 ELSE 0 END), 0) FROM room WHERE name <> $2";
+    FORGET_ROOMS = "DELETE FROM room WHERE opened_at < $1";
+    REMOVE_ROOMS = "DELETE FROM room WHERE owner = $1";
 
     // What is judged again; see `judging.rs`.
     ADD_JUDGING = "INSERT INTO judging (submission, lesson_sha256, build, asked_at, starts, lease_until) \

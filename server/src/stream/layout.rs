@@ -145,3 +145,21 @@ fn blueprint(mechanism: ContainerLike, shown_first: &str) -> Blueprint {
                 .with_loop_mode(LoopMode::Off),
         )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Side by side the plots were cut: whichever is looked at has the whole stage, at first the mechanism.
+    #[test]
+    fn views_stand_behind_tabs_and_the_mechanism_in_front() {
+        let layout = Layout::new().expect("a layout");
+        let columns = layout.messages.iter().flat_map(|message| match message {
+            LogMsg::ArrowMsg(_, arrow) => {
+                arrow.batch.schema().fields().iter().map(|field| field.name().clone()).collect()
+            }
+            _ => Vec::new(),
+        });
+        assert!(columns.into_iter().any(|name| name.contains("active_tab")));
+    }
+}

@@ -1,12 +1,17 @@
 //! A lecture's votes, and what followers ask.
 
+use std::sync::Arc;
+
 use axum::Router;
 use axum::body::Body;
 use axum::http::Request;
 use serde_json::{Value, json};
+use triad::app::App;
 use triad::limits::Limits;
 use triad::live::{self, Which};
+use triad::store::Role;
 
+use crate::class::class;
 use crate::{Reply, get, post, send, server, state};
 
 /// A room with its presenter's key.
@@ -181,4 +186,81 @@ async fn only_who_has_the_key_of_a_room_leads() {
         }
     }
     assert_eq!(room.lead(&server, "GET", "/desk", Value::Null).await.status, 200);
+}
+
+/// Opens a room under a name, with the secret of somebody at home.
+async fn named(server: &Router, name: &str, secret: &str) -> Reply {
+    let begun = post(server, "/api/v1/sessions", json!({"builtin": "simple-pendulum"})).await.json();
+    post(server, "/api/v1/rooms", json!({"session": begun["id"], "name": name, "secret": secret})).await
+}
+
+/// The address on the slides stays the same each week, and nobody else opens a lecture there.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_room_has_a_name_that_its_owner_opens_again() {
+    const OWN: &str = "an instructor's secret";
+    const OTHER: &str = "somebody else's secret";
+    let first = state(Limits::default());
+    let server = triad::app(first.clone());
+    get(&server, "/api/v1/rooms/mbs-2026").await.problem(404, "unknown-room");
+    let opened = named(&server, "MBS-2026", OWN).await.json();
+    assert_eq!((&opened["code"], &opened["page"]), (&json!("mbs-2026"), &json!("/room/mbs-2026")));
+    for typed in ["mbs-2026", "MBS-2026"] {
+        assert_eq!(get(&server, &format!("/api/v1/rooms/{typed}")).await.json()["title"], "Simple pendulum");
+    }
+    let refused = named(&server, "mbs-2026", OTHER).await.problem(409, "room-name-taken");
+    assert_eq!(refused["errors"][0]["pointer"], "#/name");
+    // From another page of the owner's the same lecture goes on: its followers stay.
+    let again = named(&server, "mbs-2026", OWN).await.json();
+    assert_eq!((&again["key"], first.lectures.len()), (&opened["key"], 1));
+    let room =
+        Room { path: "/api/v1/rooms/mbs-2026".into(), key: again["key"].as_str().expect("text").into() };
+    assert_eq!(room.lead(&server, "DELETE", "", json!({})).await.status, 204);
+    get(&server, "/api/v1/rooms/mbs-2026").await.problem(404, "room-not-open");
+    // Next week, after a restart.
+    let server = triad::app(App { lectures: Arc::default(), ..first });
+    named(&server, "mbs-2026", OTHER).await.problem(409, "room-name-taken");
+    let next = named(&server, "mbs-2026", OWN).await.json();
+    assert!(next["code"] == "mbs-2026" && next["key"] != opened["key"]);
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn names_of_rooms_are_bounded_and_kept_by_a_secret() {
+    const SECRET: &str = "sixteen letters.";
+    let server = triad::app(state(Limits { lectures: 100, ..Limits::default() }));
+    for name in ["short", "mbs 2026", "mbs--2026", "../../etc", "x".repeat(41).as_str(), "mbs_2026"] {
+        named(&server, name, SECRET).await.problem(422, "invalid-room-name");
+    }
+    named(&server, "mbs-2026", "short").await.problem(422, "missing-room-secret");
+    for k in 0..20 {
+        assert_eq!(named(&server, &format!("term-{k:03}"), SECRET).await.status, 201);
+    }
+    named(&server, "term-020", SECRET).await.problem(409, "too-many-room-names");
+    assert_eq!(named(&server, "term-003", SECRET).await.status, 201, "those that are there are opened again");
+    assert_eq!(named(&server, "term-020", "another's secret").await.status, 201);
+}
+
+/// In a class a name belongs to who teaches there, on whatever computer they sign in.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn in_a_class_a_room_belongs_to_a_person() {
+    let class = class().await;
+    let mut opened = Vec::new();
+    for (role, cookie) in class.everybody().await {
+        let begun =
+            class.ask("POST", "/api/v1/sessions", &cookie, Some(json!({"builtin": "free-body"}))).await;
+        let wish = json!({"session": begun.json()["id"], "name": "mbs-2026"});
+        let reply = class.ask("POST", "/api/v1/rooms", &cookie, Some(wish.clone())).await;
+        match role {
+            None => drop(reply.problem(401, "sign-in-needed")),
+            Some(Role::Student) => drop(reply.problem(403, "not-yours")),
+            Some(_) if opened.is_empty() => {
+                assert_eq!(reply.status, 201, "{}", reply.json());
+                opened.push(cookie);
+            }
+            Some(_) => drop(reply.problem(409, "room-name-taken")),
+        }
+    }
+    let owner = &opened[0];
+    let begun = class.ask("POST", "/api/v1/sessions", owner, Some(json!({"builtin": "free-body"}))).await;
+    let wish = json!({"session": begun.json()["id"], "name": "mbs-2026"});
+    assert_eq!(class.ask("POST", "/api/v1/rooms", owner, Some(wish)).await.status, 201);
 }

@@ -451,7 +451,8 @@ export const api = {
     else void fetch(base + run, { method: "DELETE", keepalive: true }).catch(() => undefined);
   },
 
-  openLecture: (session: string) => call<OpenedLecture>("POST", "/rooms", { session }),
+  openLecture: (session: string, own?: { name: string; secret: string }) =>
+    call<OpenedLecture>("POST", "/rooms", { session, ...own }),
   lecture: (code: string, signal?: AbortSignal) =>
     call<LectureState>("GET", `/rooms/${id(code)}`, undefined, signal),
   closeLecture: (code: string, key: string) =>

@@ -2443,6 +2443,18 @@ export interface components {
         };
         /** @description The session that a lecture shows. */
         NewLecture: {
+            /**
+             * @description The room's name, for an address that stays the same: 7 to 40 letters a to z and digits, with single hyphens between. It
+             *     belongs to who opens it first; they open it again, and go on with a lecture that is open under it.
+             * @default null
+             * @example mbs-2026
+             */
+            name?: string | null;
+            /**
+             * @description At home, where nobody has an account: what shows later that the name is one's own. Long and hard to guess.
+             * @default null
+             */
+            secret?: string | null;
             /** @description Its id; who knows it may show it. */
             session: string;
         };

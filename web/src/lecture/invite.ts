@@ -5,15 +5,19 @@ import { h } from "../core/dom";
 import { parts, t } from "../core/texts";
 import { dialog } from "../ui/dialog";
 
-/** Shows the code of a lecture. */
-export const invite = (room: string): Promise<void> =>
-  inviteTo(t("Join this lecture"), { typed: "/room", linked: `/room/${room}`, code: room });
+/** Letters of a code that is shown as large as the window; names that were chosen are longer. */
+const CODE = 8;
+
+/** Shows the code of a lecture; `more` stands below it. */
+export const invite = (room: string, more: HTMLElement): Promise<HTMLDialogElement> =>
+  inviteTo(t("Join this lecture"), { typed: "/room", linked: `/room/${room}`, code: room }, more);
 
 /** Shows a code in type that is read from the back of a lecture hall, and the address with it as a picture for phones. */
 export async function inviteTo(
   title: string,
   { typed, linked, code }: { typed: string; linked: string; code: string },
-): Promise<void> {
+  more?: HTMLElement,
+): Promise<HTMLDialogElement> {
   const { qr } = await import("./qr");
   const address = new URL(addressOf(linked), location.href).href;
   const here = /^(localhost|127\.|\[::1\])/.test(location.hostname);
@@ -33,7 +37,7 @@ export async function inviteTo(
             address: h("b", null, new URL(addressOf(typed), location.href).href.replace(/^https?:\/\//, "")),
           }),
         ),
-        h("p", { class: "invite-code" }, code),
+        h("p", { class: code.length > CODE ? "invite-code is-name" : "invite-code" }, code),
         here
           ? h(
               "p",
@@ -43,8 +47,10 @@ export async function inviteTo(
               ),
             )
           : null,
+        more ?? null,
       ),
     ),
   );
   box.classList.add("is-wide");
+  return box;
 }

@@ -13,7 +13,9 @@ import { problemNotice } from "../ui/notice";
 import { Desk } from "./desk";
 import { histogram } from "./histogram";
 import { invite } from "./invite";
+import { type OwnLecture, store, stored } from "./own-lecture";
 import { questionDialog } from "./question-dialog";
+import { nameForm, openOwnRoom, openRoom } from "./room-name";
 import { showSaid } from "./said";
 import { screenKeys } from "./screen-keys";
 import { Slides } from "./slides";
@@ -24,34 +26,6 @@ import { forgetTape, Taping } from "./taping";
 const SEND_MS = 150;
 /** Time between two questions for the number of followers and answers, ms. */
 const POLL_MS = 1000;
-/** Where the tab keeps its lecture: it goes on after a reload and on the next lesson, but no other tab leads it. */
-const STORED = "triad:room";
-
-/** A lecture as its presenter knows it. */
-interface OwnLecture {
-  code: string;
-  /** Who has it may show, ask and end. */
-  key: string;
-}
-
-function store(lecture: OwnLecture | undefined): void {
-  try {
-    if (lecture) sessionStorage.setItem(STORED, JSON.stringify(lecture));
-    else sessionStorage.removeItem(STORED);
-  } catch {
-    // Without storage the lecture ends with the page.
-  }
-}
-
-function stored(): OwnLecture | undefined {
-  try {
-    const found = JSON.parse(sessionStorage.getItem(STORED) ?? "null") as OwnLecture | null;
-    return found && typeof found.code === "string" && typeof found.key === "string" ? found : undefined;
-  } catch {
-    return undefined;
-  }
-}
-
 export interface PresenterHooks {
   /** What the page shows now, as a link would carry it, and a small picture of it. */
   seen: () => SharedView;
@@ -153,7 +127,7 @@ export class PresenterPanel {
         h(
           "span",
           { class: "row wrap tight" },
-          action(t("How to join"), "button", () => this.lecture && void invite(this.lecture.code)),
+          action(t("How to join"), "button", () => void this.invite()),
           action(t("Window for the projector"), "button", () => this.openScreen()),
           action(t("Ask a question"), "button", () => this.ask()),
           lesson && inClass() && teaches()
@@ -221,19 +195,45 @@ export class PresenterPanel {
     const id = this.session.latest?.id;
     if (!id) return;
     try {
-      const opened = await api.openLecture(id);
-      this.lecture = { code: opened.code, key: opened.key };
-      store(this.lecture);
-      this.sentView = "";
-      this.shownSession = id;
-      this.paint();
-      announce(t("The lecture room {code} is open.", { code: opened.code }));
-      this.send();
-      await invite(this.lecture.code);
+      const { opened, refused } = await openOwnRoom(id);
+      this.lead(id, opened);
+      await this.invite(refused);
     } catch (error) {
       this.root.hidden = false;
       this.trouble.replaceChildren(problemNotice(error));
     }
+  }
+
+  private lead(session: string, { code, key }: OwnLecture): void {
+    this.lecture = { code, key };
+    store(this.lecture);
+    this.sentView = "";
+    this.shownSession = session;
+    this.paint();
+    announce(t("The lecture room {code} is open.", { code }));
+    this.send();
+  }
+
+  /** Shows how to join, and why the room does not have its name. */
+  private async invite(refused?: unknown): Promise<void> {
+    if (!this.lecture) return;
+    const use = async (name: string | undefined): Promise<void> => {
+      await this.rename(name);
+      box.close();
+      await this.invite();
+    };
+    const box = await invite(this.lecture.code, nameForm(this.lecture.code, use, refused));
+  }
+
+  /** Goes on in a room of that name, or of a code; the room before ends. */
+  private async rename(name: string | undefined): Promise<void> {
+    const [before, id] = [this.lecture, this.session.latest?.id];
+    if (!before || !id) return;
+    const opened = await openRoom(id, name);
+    if (opened.code === before.code) return;
+    await api.closeLecture(before.code, before.key).catch(() => undefined);
+    this.forget();
+    this.lead(id, opened);
   }
 
   private end(): Promise<void> {

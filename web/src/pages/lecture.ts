@@ -6,6 +6,7 @@ import { h, setText } from "../core/dom";
 import { navigate, type Page, setTitle } from "../core/router";
 import { parts, t } from "../core/texts";
 import { Follower } from "../lecture/follower";
+import { writtenRoom } from "../lecture/room-name";
 import { voice } from "../lecture/voice";
 import { ballot } from "../lecture/voter";
 import { linkTo } from "../session/shared-view";
@@ -15,38 +16,44 @@ import { mountWorkbench } from "../workbench/workbench";
 
 /** Letters in the code of a class. */
 const CLASS_CODE = 8;
+/** Longest name of a room. */
+const LONGEST = 40;
+/** How often who waits for a lecture asks whether it has begun, ms: a full hall does not ask at the same moment. */
+const [WAIT_MS, SPREAD_MS] = [4000, 3000];
 
 export function joinPage(outlet: HTMLElement): Page {
   const code = h("input", {
     id: "lecture-code",
     class: "field lecture-code",
     autocomplete: "off",
-    autocapitalize: "characters",
+    autocapitalize: "none",
     spellcheck: "false",
-    maxlength: "8",
+    maxlength: LONGEST,
     required: true,
   });
   const wrong = h("div", { "aria-live": "polite" });
   const form = h(
     "form",
     { class: "stack" },
-    h("label", { for: "lecture-code" }, t("Code of the room")),
+    h("label", { for: "lecture-code" }, t("Code or name of the room")),
     code,
     wrong,
     h("div", { class: "row" }, h("button", { class: "button primary" }, t("Join"))),
   );
   form.addEventListener("submit", (event) => {
     event.preventDefault();
-    const typed = code.value.trim().toUpperCase();
-    // Codes of rooms are shorter: who types that of the class wants to join it.
-    if (typed.length === CLASS_CODE && inClass() && !me().person) {
-      navigate(`/join?code=${encodeURIComponent(typed.toLowerCase())}`);
-      return;
-    }
+    const typed = writtenRoom(code.value);
+    const enter = (): void => navigate(`/room/${encodeURIComponent(typed)}`);
     api
       .lecture(typed)
-      .then(() => navigate(`/room/${encodeURIComponent(typed)}`))
-      .catch((error: unknown) => wrong.replaceChildren(problemNotice(error)));
+      .then(enter)
+      .catch((error: unknown) => {
+        if (notBegun(error)) enter();
+        // Codes of rooms are shorter, and no room has this name: who types that of the class wants to join it.
+        else if (typed.length === CLASS_CODE && inClass() && !me().person)
+          navigate(`/join?code=${encodeURIComponent(typed)}`);
+        else wrong.replaceChildren(problemNotice(error));
+      });
   });
   outlet.append(
     h(
@@ -72,7 +79,7 @@ export function joinPage(outlet: HTMLElement): Page {
 }
 
 export function lecturePage(outlet: HTMLElement, params: string[]): Page {
-  const page = new LecturePage((params[0] ?? "").toUpperCase());
+  const page = new LecturePage(writtenRoom(params[0] ?? ""));
   outlet.append(page.root);
   return { title: t("Lecture"), dispose: () => page.dispose() };
 }
@@ -103,11 +110,25 @@ class LecturePage {
       h("div", { class: "row wrap" }, this.back, this.alone, this.own),
     );
     this.root = h("div", null, head, this.votes.root, this.bench);
+    this.enter(head);
+  }
+
+  private enter(head: HTMLElement): void {
+    const { signal } = this.leaving;
     api
-      .lecture(code, this.leaving.signal)
+      .lecture(this.code, signal)
       .then(() => this.open())
       .catch((error: unknown) => {
-        if (!this.leaving.signal.aborted) this.fail(head, error);
+        if (signal.aborted) return;
+        if (!notBegun(error)) {
+          this.fail(head, error);
+          return;
+        }
+        setText(
+          this.status,
+          t("The lecture in this room has not begun. This page goes in by itself when it does."),
+        );
+        setTimeout(() => !signal.aborted && this.enter(head), WAIT_MS + SPREAD_MS * Math.random());
       });
   }
 
@@ -159,6 +180,10 @@ class LecturePage {
     });
   }
 }
+
+/** Whether a room has its name, and no lecture yet. */
+const notBegun = (error: unknown): boolean =>
+  error instanceof ApiError && error.problem.code === "room-not-open";
 
 function statusOf({ lecture, over, roaming }: Follower): string {
   if (over) return t("The lecture is over. What was shown can still be looked at here.");

@@ -10,12 +10,13 @@ import { t } from "../core/texts";
 import { forTheHall } from "../core/theme";
 import { Follower } from "../lecture/follower";
 import { histogram } from "../lecture/histogram";
+import { writtenRoom } from "../lecture/room-name";
 import { type ScreenKey, screenKeys } from "../lecture/screen-keys";
 import { Stage } from "../stage/stage";
 import { problemNotice } from "../ui/notice";
 
 export function screenPage(outlet: HTMLElement, params: string[]): Page {
-  const page = new Screen((params[0] ?? "").toUpperCase());
+  const page = new Screen(writtenRoom(params[0] ?? ""));
   outlet.append(page.root);
   return { title: t("Lecture"), dispose: () => page.dispose() };
 }

@@ -2,6 +2,7 @@
 
 mod audience;
 pub(in crate::api) mod follow;
+mod open;
 
 use std::sync::Arc;
 
@@ -9,9 +10,8 @@ use axum::body::Bytes;
 use axum::extract::State;
 use axum::http::header::CONTENT_TYPE;
 use axum::http::{HeaderMap, HeaderName, StatusCode, header};
-use axum::response::IntoResponse;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use serde_json::Value;
 use triad_engine::run::StateView;
 use triad_session::change::SessionScene;
@@ -26,20 +26,18 @@ use crate::api::extract::{Json, PathParameters, QueryParameters};
 use crate::api::sessions::matrices::{jacobian_of, symmetric_of};
 use crate::api::sessions::reactions::{multipliers_of, reactions_of};
 use crate::app::App;
-use crate::lecture::{Lecture, NewQuestion, PresenterState, PublicState, Vote};
+use crate::lecture::{Lecture, NewQuestion, PresenterState, PublicState, Vote, named};
 use crate::problem::Problem;
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
-    schemas.request::<NewLecture>();
-    schemas.answer::<OpenedLecture>();
     schemas.answer::<PublicState>();
     schemas.request::<NewLectureView>();
     schemas.answer::<PresenterState>();
     schemas.request::<NewQuestion>();
     schemas.request::<Vote>();
     OpenApiRouter::new()
+        .merge(open::routes(schemas))
         .merge(audience::routes(schemas))
-        .routes(routes!(open))
         .routes(routes!(public_state, close))
         .routes(routes!(show))
         .routes(routes!(presenter_state))
@@ -55,49 +53,26 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
         .routes(routes!(reactions))
 }
 
-/// The session that a lecture shows.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct NewLecture {
-    /// Its id; who knows it may show it.
-    session: String,
-}
-
-/// A room that was opened.
-#[derive(Debug, Serialize, JsonSchema)]
-struct OpenedLecture {
-    /// What followers type to join.
-    code: String,
-    /// Shows that somebody is the presenter: to be sent as `authorization: Bearer KEY`. It is sent only here.
-    key: String,
-    /// Where followers go, below the server's address.
-    page: String,
-}
-
-/// Open a lecture room for a session.
-#[utoipa::path(post, path = "/rooms", operation_id = "open_lecture", tag = "rooms", request_body(content = ref(of::<NewLecture>())), responses(
-    (status = 201, description = "The room, and the presenter's key", body = ref(of::<OpenedLecture>())),
-    (status = 404, description = "No such session", body = ref(PROBLEM)),
-    (status = 503, description = "All rooms are in use", body = ref(PROBLEM))))]
-async fn open(State(app): State<App>, Json(new): Json<NewLecture>) -> Result<impl IntoResponse, Problem> {
-    let lecture = app.lectures.open(app.sessions.get(&new.session)?, &app.limits)?;
-    let opened = OpenedLecture {
-        code: lecture.code.clone(),
-        key: lecture.key().to_owned(),
-        page: format!("/room/{}", lecture.code),
-    };
-    Ok((StatusCode::CREATED, axum::Json(opened)))
-}
-
 /// What is shown and asked in a room.
 #[utoipa::path(get, path = "/rooms/{code}", operation_id = "get_lecture", tag = "rooms", params(("code" = String, Path)), responses(
     (status = 200, description = "What followers see", body = ref(of::<PublicState>())),
-    (status = 404, description = "No such room", body = ref(PROBLEM))))]
+    (status = 404, description = "No such room, or no lecture in it", body = ref(PROBLEM))))]
 async fn public_state(
     State(app): State<App>,
     PathParameters(code): PathParameters<String>,
 ) -> Result<axum::Json<PublicState>, Problem> {
-    Ok(axum::Json(app.lectures.get(&code)?.public_state()))
+    match app.lectures.get(&code) {
+        Ok(lecture) => Ok(axum::Json(lecture.public_state())),
+        Err(unknown) => match named::name(&code) {
+            Ok(name) if app.store.node_of_room(&name).await?.is_some() => Err(Problem::new(
+                StatusCode::NOT_FOUND,
+                "room-not-open",
+                format!("no lecture is open in the room {name} at the moment"),
+                "ask again in a moment: it opens when the lecture begins",
+            )),
+            _ => Err(unknown),
+        },
+    }
 }
 
 /// End a lecture. For the presenter.

@@ -71,6 +71,7 @@ async fn forget(connection: &mut AnyConnection, course: &str, person: &str) -> R
         sql::REMOVE_SESSIONS,
         sql::REMOVE_GRADINGS,
         sql::REMOVE_JUDGINGS,
+        sql::REMOVE_ROOMS,
         sql::lti::FORGET_SUBJECT,
         sql::lti::FORGET_SCORES,
     ];

@@ -75,10 +75,10 @@ pub(in crate::store) const OF_COURSE: &[(&str, &str)] = &[
 ];
 
 /// Tables that are not taken along: sessions and the keys to a learning platform are for one server, invitations for one place,
-/// what is judged again is asked for anew, and servers are where they are.
+/// what is judged again is asked for anew, servers are where they are, and a room's name is part of an address there.
 #[cfg(test)]
 pub(in crate::store) const LEFT: &[&str] =
-    &["session", "invitation", "lti_key", "lti_nonce", "judging", "node"];
+    &["session", "invitation", "lti_key", "lti_nonce", "judging", "node", "room"];
 
 /// A row as JSON, by the names of its columns.
 ///

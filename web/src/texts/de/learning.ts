@@ -280,7 +280,20 @@ export const learning = {
   "Triad counts its degrees of freedom and names its redundant rows as you type.":
     "Triad zählt seine Freiheitsgrade und nennt seine überzähligen Zeilen, während du tippst.",
   "Open the scenes": "Die Szenen öffnen",
-  "Code of the room": "Code des Raums",
+  "Code or name of the room": "Code oder Name des Raums",
+  "The lecture in this room has not begun. This page goes in by itself when it does.":
+    "Die Vorlesung in diesem Raum hat noch nicht begonnen. Diese Seite geht von selbst hinein, wenn sie beginnt.",
+  "Name of the room": "Name des Raums",
+  "Use this name": "Diesen Namen nehmen",
+  "Use a code again": "Wieder einen Code nehmen",
+  "7 to 40 letters a to z and digits, with hyphens between, such as mbs-2026. Each lecture that you open has this link from now on.":
+    "7 bis 40 Buchstaben a bis z und Ziffern, mit Bindestrichen dazwischen, etwa mbs-2026. Jede Vorlesung, die du öffnest, hat von nun an diesen Link.",
+  "The name belongs to your account: nobody else can open a lecture under it.":
+    "Der Name gehört zu deinem Konto: Niemand sonst kann darunter eine Vorlesung öffnen.",
+  "The name belongs to this browser: no other can open a lecture under it.":
+    "Der Name gehört zu diesem Browser: Kein anderer kann darunter eine Vorlesung öffnen.",
+  "Whoever follows now has to join again.": "Wer jetzt folgt, muss neu beitreten.",
+  "A link that stays the same for the whole term": "Ein Link, der das ganze Semester gleich bleibt",
   "Type the code that your instructor shows. No account is needed.":
     "Tippe den Code ein, den deine Lehrkraft zeigt. Ein Konto braucht es nicht.",
   "Look around": "Selbst umsehen",
@@ -326,7 +339,6 @@ export const learning = {
   "a pendulum": "einem Pendel",
   "Back to the text before": "Zurück zum Text davor",
   "Line {line}: see the remark below the text.": "Zeile {line}: siehe die Bemerkung unter dem Text.",
-  "line {line}": "Zeile {line}",
   "Ctrl and the space bar list the words that fit at the cursor.":
     "Strg und die Leertaste zeigen die Wörter, die an der Stelle passen.",
   "The text is not JSON yet: see the remark below it.":
