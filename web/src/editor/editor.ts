@@ -4,9 +4,10 @@ import { ApiError, api } from "../api/client";
 import type { CheckReport, Problem } from "../api/types";
 import { h } from "../core/dom";
 import { t } from "../core/texts";
+import { told } from "../core/told";
 
 import { icon } from "../ui/icons";
-import { problemNotice } from "../ui/notice";
+import { problemNotice, type SaidProblem } from "../ui/notice";
 import { isMarkup } from "./markup";
 import { inText, type Meant, meantBy } from "./meant";
 import { lineOf, locate } from "./pointer";
@@ -174,7 +175,7 @@ function endOfValue(text: string, offset: number): number {
 }
 
 /** Text that is not JSON never leaves the page: the browser knows the place already. */
-function syntaxProblem(text: string): { problem: Problem; line: number } | undefined {
+function syntaxProblem(text: string): { problem: SaidProblem; line: number } | undefined {
   try {
     JSON.parse(text);
     return undefined;
@@ -190,6 +191,8 @@ function syntaxProblem(text: string): { problem: Problem; line: number } | undef
     return {
       line,
       problem: {
+        code: "not-json",
+        said: ["title", "hint"],
         title: t("Line {line} is not JSON yet", { line }),
         detail: message.replace(/ in JSON at position.*$/, ""),
         hint: t("Look for a missing comma, quote or bracket just before this place."),
@@ -249,7 +252,7 @@ function reportView(report: CheckReport): HTMLElement {
           "div",
           null,
           h("h2", null, t("Notes of the engine")),
-          h("ul", null, ...report.notes.map((note) => h("li", null, note))),
+          h("ul", null, ...report.notes.map((note) => h("li", null, told(note)))),
         )
       : null,
   );

@@ -2,6 +2,7 @@
 
 import type { Problem } from "../api/types";
 import { t } from "../core/texts";
+import type { SaidProblem } from "../ui/notice";
 import { locate } from "./pointer";
 
 /** A word of the text, with its quotes from `from` to `to`, and the word that was probably meant. */
@@ -37,14 +38,14 @@ export function meantBy(problem: Problem, text: string): Meant | undefined {
 }
 
 /** A problem in words for who sees the text: its line there, and no command of a terminal. */
-export function inText(problem: Problem, line: number | undefined, offered: boolean): Problem {
+export function inText(problem: Problem, line: number | undefined, offered: boolean): SaidProblem {
   if (line === undefined || problem.code !== "scene-syntax") return problem;
-  const detail = problem.detail?.replace(/ \(line \d+, column \d+\)/, ` (${t("line {line}", { line })})`);
+  const detail = problem.detail?.replace(/ \(line \d+, column \d+\)/, ` (line ${line})`);
   const hint = offered ? undefined : t("Ctrl and the space bar list the words that fit at the cursor.");
   const errors = problem.errors?.map((place) =>
     place.detail === problem.detail && detail ? { ...place, detail } : place,
   );
-  return { ...problem, detail, hint, errors };
+  return { ...problem, detail, hint, errors, said: ["hint"] };
 }
 
 /** The word that needs the fewest changes, if those are at most a third of its letters. */

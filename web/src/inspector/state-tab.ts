@@ -5,6 +5,7 @@ import type { Accuracy, SessionState } from "../api/types";
 import { h, setText } from "../core/dom";
 import { fixed, num, sci, seconds } from "../core/format";
 import { t } from "../core/texts";
+import { told } from "../core/told";
 import type { Session } from "../session/session";
 import type { Panel } from "../ui/panel";
 import { liveTable } from "../ui/table";
@@ -94,6 +95,8 @@ const FIGURES: { label: () => string; about: () => string; of: (state: SessionSt
 export class StateTab implements Panel {
   readonly root: HTMLElement;
   private readonly figures = FIGURES.map(({ label, about }) => figure(label(), about()));
+  /** The notes that stand there. */
+  private noted = "";
   private readonly notes = h("ul", {
     class: "notes",
     "aria-label": t("Notes of the engine about this scene"),
@@ -129,8 +132,10 @@ export class StateTab implements Panel {
     });
     const notes = state.notes ?? [];
     this.notes.hidden = notes.length === 0;
-    if (this.notes.textContent !== notes.join(""))
-      this.notes.replaceChildren(...notes.map((text) => h("li", null, text)));
+    if (this.noted !== notes.join("\n")) {
+      this.noted = notes.join("\n");
+      this.notes.replaceChildren(...notes.map((text) => h("li", null, told(text))));
+    }
     this.showCoordinates(state);
   }
 

@@ -4,6 +4,7 @@ import { problemOf } from "../api/client";
 import type { Problem } from "../api/types";
 import { type Child, h } from "../core/dom";
 import { t } from "../core/texts";
+import { told } from "../core/told";
 import { icon } from "./icons";
 
 export interface Action {
@@ -16,9 +17,17 @@ export interface PointerLink {
   open: (pointer: string) => void;
 }
 
+/** A problem with words of the page's own in it, which are in the reader's language already. */
+export interface SaidProblem extends Problem {
+  said?: ("title" | "detail" | "hint")[];
+}
+
 /** A problem as the server reports it: what, where, and what to try. */
 export function problemNotice(error: unknown, actions: Action[] = [], link?: PointerLink): HTMLElement {
-  const problem: Problem = problemOf(error);
+  const problem: SaidProblem = problemOf(error);
+  // What has no code is the page's own.
+  const words = (which: "title" | "detail" | "hint", text: string): Node =>
+    problem.code && !problem.said?.includes(which) ? told(text) : document.createTextNode(text);
   const places = (problem.errors ?? []).filter((place) => place.detail !== problem.detail || place.pointer);
   return h(
     "section",
@@ -27,8 +36,10 @@ export function problemNotice(error: unknown, actions: Action[] = [], link?: Poi
     h(
       "div",
       { class: "notice-body" },
-      h("p", { class: "notice-title" }, problem.title),
-      problem.detail && problem.detail !== problem.title ? h("p", null, problem.detail) : null,
+      h("p", { class: "notice-title" }, words("title", problem.title)),
+      problem.detail && problem.detail !== problem.title
+        ? h("p", null, words("detail", problem.detail))
+        : null,
       places.length > 0
         ? h(
             "ul",
@@ -38,13 +49,19 @@ export function problemNotice(error: unknown, actions: Action[] = [], link?: Poi
                 "li",
                 null,
                 pointer(place.pointer, link),
-                place.detail === problem.detail ? null : ` ${place.detail}`,
+                ...(place.detail === problem.detail ? [] : [" ", words("detail", place.detail)]),
               ),
             ),
           )
         : null,
       problem.hint
-        ? h("p", { class: "notice-hint" }, h("strong", null, t("What to try:")), " ", problem.hint)
+        ? h(
+            "p",
+            { class: "notice-hint" },
+            h("strong", null, t("What to try:")),
+            " ",
+            words("hint", problem.hint),
+          )
         : null,
       actions.length > 0
         ? h(

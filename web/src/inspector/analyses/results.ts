@@ -4,6 +4,7 @@ import type { CheckReport, Reaction, Vec3 } from "../../api/types";
 import { h } from "../../core/dom";
 import { fixed, num, sci, seconds } from "../../core/format";
 import { listed, t } from "../../core/texts";
+import { told } from "../../core/told";
 import type { ModeMotion, Placed } from "../../mechanics/pose";
 import { norm } from "../../mechanics/vec";
 import { liveTable } from "../../ui/table";
@@ -54,6 +55,14 @@ export interface ModesResult {
   notes: string[];
 }
 
+/** What a small motion does, in the server's word. */
+const KINDS: Record<string, () => string> = {
+  oscillates: () => t("oscillates"),
+  decays: () => t("decays"),
+  grows: () => t("grows"),
+  drifts: () => t("drifts"),
+};
+
 /** Positions of a kinematic analysis that the table shows at most. */
 const MAX_ROWS = 21;
 
@@ -103,7 +112,7 @@ export function assemblyView(found: AssemblyResult): HTMLElement[] {
       [t("Open at the start"), `${sci(found.opening)} m`],
       [t("Open now"), `${sci(found.left)} m`],
     ]),
-    ...found.notes.map((note) => h("p", null, note)),
+    ...found.notes.map((note) => h("p", null, told(note))),
     table.root,
   ];
 }
@@ -162,7 +171,7 @@ export function kinematicsView(found: KinematicsResult): HTMLElement[] {
           : t("{name} at {time}.", { name: event.name, time: seconds(event.time) }),
       ),
     ),
-    ...found.notes.map((note) => h("p", null, note)),
+    ...found.notes.map((note) => h("p", null, told(note))),
     table.root,
   ];
 }
@@ -213,7 +222,7 @@ export function modesView(found: ModesResult, about: string, show: (mode: Mode) 
     ...steadyView(found.steady),
     modesTable(found.modes, show),
     ...leftOutView(found),
-    ...found.notes.map((note) => h("p", { class: "help" }, note)),
+    ...found.notes.map((note) => h("p", { class: "help" }, told(note))),
   ];
 }
 
@@ -265,7 +274,11 @@ function modesTable(modes: Mode[], show: (mode: Mode) => void): HTMLElement {
     return h(
       "tr",
       null,
-      h("th", { scope: "row" }, t("Mode {number}, {kind}", { number: k + 1, kind: mode.kind })),
+      h(
+        "th",
+        { scope: "row" },
+        t("Mode {number}, {kind}", { number: k + 1, kind: KINDS[mode.kind]?.() ?? mode.kind }),
+      ),
       h("td", { class: "number" }, num(mode.frequency, 6)),
       h("td", { class: "number" }, mode.frequency > 0 ? num(1 / mode.frequency, 5) : "–"),
       h("td", { class: "number" }, num(mode.growth, 4)),

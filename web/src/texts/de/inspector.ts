@@ -349,4 +349,8 @@ export const inspector = {
   "Path of {name}": "Bahn von {name}",
   "Hodograph of the velocity of {name}": "Hodograph der Geschwindigkeit von {name}",
   "Hodograph of the force in {joint} on {on}": "Hodograph der Kraft in {joint} auf {on}",
+  oscillates: "schwingt",
+  decays: "klingt ab",
+  grows: "wächst",
+  drifts: "driftet",
 };

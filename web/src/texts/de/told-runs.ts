@@ -1,0 +1,199 @@
+// What the server says of runs and analyses, in German; see `told.ts`.
+
+export const toldOfRuns: Record<string, string> = {
+  // Why a run cannot begin or go on.
+  'the mechanism cannot be assembled near its start: joint "{joint}" stays open by {violation} of the mechanism\'s size (moved by {moved} m)':
+    "der Mechanismus lässt sich nahe seinem Anfang nicht schließen: Gelenk „{joint}“ bleibt um {violation} der Größe des Mechanismus offen (verschoben um {moved} m)",
+  'the mechanism cannot be assembled near its start: joint "{joint}" stays open by {violation} of the mechanism\'s size, and with it {with} (moved by {moved} m)':
+    "der Mechanismus lässt sich nahe seinem Anfang nicht schließen: Gelenk „{joint}“ bleibt um {violation} der Größe des Mechanismus offen und mit ihm {with} (verschoben um {moved} m)",
+  'joint "{joint}" is open at the start, and closing all joints would move bodies by {moved} m, more than the {limit} m that count as a correction':
+    "Gelenk „{joint}“ ist am Anfang offen, und alle Gelenke zu schließen würde Körper um {moved} m verschieben, mehr als die {limit} m, die als Korrektur gelten",
+  'driver "{driver}" asks for a motion that the joints do not allow at t = {time} s: no velocities satisfy it; the nearest miss it by {missed}/s':
+    "Antrieb „{driver}“ verlangt eine Bewegung, die die Gelenke bei t = {time} s nicht erlauben: Keine Geschwindigkeiten erfüllen sie; die nächsten verfehlen sie um {missed}/s",
+  'driver "{driver}" asks for a motion that the joints do not allow at t = {time} s: no velocities satisfy it together with {with}; the nearest miss it by {missed}/s':
+    "Antrieb „{driver}“ verlangt eine Bewegung, die die Gelenke bei t = {time} s nicht erlauben: Keine Geschwindigkeiten erfüllen sie zusammen mit {with}; die nächsten verfehlen sie um {missed}/s",
+  'the masses are too different: between {light_mass} kg of "{light}" and {heavy_mass} kg of "{heavy}" rounding cannot tell whether joint "{joint}" holds':
+    "die Massen sind zu verschieden: Zwischen {light_mass} kg von „{light}“ und {heavy_mass} kg von „{heavy}“ kann die Rundung nicht sagen, ob Gelenk „{joint}“ hält",
+  'the run stops at t = {time} s: joint "{joint}" is open by {violation} of the mechanism\'s size':
+    "der Lauf endet bei t = {time} s: Gelenk „{joint}“ ist um {violation} der Größe des Mechanismus offen",
+  'the run stops at t = {time} s: joint "{joint}" is open by {violation} of the mechanism\'s size, and with it {with}':
+    "der Lauf endet bei t = {time} s: Gelenk „{joint}“ ist um {violation} der Größe des Mechanismus offen und mit ihm {with}",
+  "the state at t = {time} s is not finite": "der Zustand bei t = {time} s ist nicht endlich",
+  "the integration stops at t = {time} s: no step above {step} s meets the tolerance":
+    "die Integration endet bei t = {time} s: Kein Schritt über {step} s hält die Toleranz ein",
+  "the run diverges at t = {time} s: accelerations are no longer finite numbers":
+    "der Lauf divergiert bei t = {time} s: Beschleunigungen sind keine endlichen Zahlen mehr",
+  "the integration stops at t = {time} s: the equations of a step of {step} s cannot be solved":
+    "die Integration endet bei t = {time} s: Die Gleichungen eines Schritts von {step} s lassen sich nicht lösen",
+  "the run stalls at t = {time} s: its steps have shrunk to {step} s, and more than 1e9 of them are left":
+    "der Lauf bleibt bei t = {time} s stecken: Seine Schritte sind auf {step} s geschrumpft, und mehr als 1e9 davon stehen noch aus",
+  "at t = {time} s no independent coordinates can be chosen: a singular position leaves open what is free to move":
+    "bei t = {time} s lassen sich keine unabhängigen Koordinaten wählen: Eine singuläre Lage lässt offen, was sich frei bewegt",
+  "the run stops at t = {time} s: its {steps} steps are used up":
+    "der Lauf endet bei t = {time} s: Seine {steps} Schritte sind verbraucht",
+  "t = {time} s is outside the run, which goes from {from} s to {to} s":
+    "t = {time} s liegt außerhalb des Laufs, der von {from} s bis {to} s geht",
+  "{reason} (after {steps} step)": "{reason} (nach {steps} Schritt)",
+  "{reason} (after {steps} steps)": "{reason} (nach {steps} Schritten)",
+  "{reason} (after {steps} step; {cause})": "{reason} (nach {steps} Schritt; {cause})",
+  "{reason} (after {steps} steps; {cause})": "{reason} (nach {steps} Schritten; {cause})",
+  "driver {drivers} asks for more than the joints allow: at t = {time} s no position nearby closes {open}":
+    "Antrieb {drivers} verlangt mehr, als die Gelenke erlauben: Bei t = {time} s schließt keine Lage in der Nähe {open}",
+  '"{joint}" is about to lose its hold, of which {left} is left':
+    "„{joint}“ verliert gleich seinen Halt, von dem {left} übrig ist",
+  '"{joint}" hardly holds since the start, where others leave it {left} of a firm hold':
+    "„{joint}“ hält seit dem Anfang kaum, wo ihm andere {left} eines festen Halts lassen",
+  'the friction of "{load}" locks: it presses its joint together faster than it can hold, and no motion satisfies both':
+    "die Reibung von „{load}“ klemmt: Sie presst ihr Gelenk schneller zusammen, als es halten kann, und keine Bewegung erfüllt beides",
+
+  "{integrator} cannot run this scene: it is the partner of the augmented Lagrangian alone":
+    "{integrator} kann diese Szene nicht rechnen: Es gehört allein zur erweiterten Lagrange-Methode",
+  "Ask for the stabilization augmented-lagrangian, which brings it along, or leave the integrator to auto.":
+    "Nimm als Stabilisierung augmented-lagrangian, die es mitbringt, oder überlass den Integrator auto.",
+  "which reactions are unique is not found for {rows} redundant rows among {all}: the work grows with the square of the one times the other":
+    "welche Reaktionen eindeutig sind, wird bei {rows} redundanten Zeilen unter {all} nicht ermittelt: Die Arbeit wächst mit dem Quadrat der einen mal der anderen",
+  "Look at a part of the mechanism as a scene of its own.":
+    "Betrachte einen Teil des Mechanismus als eigene Szene.",
+  "the rows of the joints hold numbers that are not finite":
+    "in den Zeilen der Gelenke stehen Zahlen, die nicht endlich sind",
+  "Reset the run and stop it before the state diverges.":
+    "Setz den Lauf zurück, und halt ihn an, bevor der Zustand divergiert.",
+
+  // Notes of a scene.
+  "positions violated the constraints by {violated}; bodies were moved by up to {moved} onto them":
+    "Die Lagen verletzten die Zwangsbedingungen um {violated}; Körper wurden um bis zu {moved} auf sie verschoben",
+  "velocities violated the constraints by {rate}; they were changed by up to {changed} onto them":
+    "Die Geschwindigkeiten verletzten die Zwangsbedingungen um {rate}; sie wurden um bis zu {changed} auf sie geändert",
+  "velocities violated the constraints by {rate}; they were changed by up to {changed} onto them; {reason}":
+    "Die Geschwindigkeiten verletzten die Zwangsbedingungen um {rate}; sie wurden um bis zu {changed} auf sie geändert; {reason}",
+  'the joints do not allow the given velocities: {reason}; give rates of joints ("start") instead':
+    "die Gelenke erlauben die gegebenen Geschwindigkeiten nicht: {reason}; gib stattdessen Geschwindigkeiten von Gelenken („start“)",
+  'the joints do not allow the given velocities: {reason}, and {n} other bodies likewise; give rates of joints ("start") instead':
+    "die Gelenke erlauben die gegebenen Geschwindigkeiten nicht: {reason}, ebenso {n} andere Körper; gib stattdessen Geschwindigkeiten von Gelenken („start“)",
+  'body "{body}": of the velocity {given} m/s it keeps {kept}':
+    "Körper „{body}“: Von der Geschwindigkeit {given} m/s behält er {kept}",
+  'body "{body}": of the angular velocity {given} rad/s it keeps {kept}':
+    "Körper „{body}“: Von der Winkelgeschwindigkeit {given} rad/s behält er {kept}",
+  'joint "{joint}": of the {given} {unit} that are given for the start the joints leave {found}':
+    "Gelenk „{joint}“: Von den {given} {unit}, die für den Anfang gegeben sind, lassen die Gelenke {found}",
+  "the start is a singular position: {n} rows lose their hold there, and several branches of motion may begin; without a velocity that chooses one, which of them is followed is not determined":
+    "Der Anfang ist eine singuläre Lage: {n} Zeilen verlieren dort ihren Halt, und mehrere Zweige der Bewegung können beginnen; ohne eine Geschwindigkeit, die einen wählt, ist nicht bestimmt, welchem gefolgt wird",
+  "joints hold more than once what they hold: friction with a coefficient follows the smallest reactions that do, which need not be those of a real mechanism":
+    "Gelenke halten mehrfach, was sie halten: Reibung mit einem Beiwert folgt den kleinsten Reaktionen, die es tun, und das müssen nicht die eines wirklichen Mechanismus sein",
+  'body "{body}": with {n} attached masses it has {mass} kg, its centre of mass at {at}':
+    "Körper „{body}“: Mit {n} angebrachten Massen hat er {mass} kg, sein Schwerpunkt liegt bei {at}",
+  'body "{body}": principal moments {moments} kg m² found along {axes}':
+    "Körper „{body}“: Hauptträgheitsmomente {moments} kg m², gefunden längs {axes}",
+  'body "{body}": directors off by {error} were made orthonormal':
+    "Körper „{body}“: Direktoren, die um {error} abwichen, wurden orthonormiert",
+  'body "{body}": the quaternion of norm {norm} was normalized':
+    "Körper „{body}“: Das Quaternion mit dem Betrag {norm} wurde normiert",
+  'joint "{joint}" shares no director: its axis is not along a principal axis of body "{body}"':
+    "Gelenk „{joint}“ teilt keinen Direktor: Seine Achse liegt nicht längs einer Hauptachse von Körper „{body}“",
+  'joint "{joint}" shares no director: body "{body}" is reduced; sharing a director needs full coordinates':
+    "Gelenk „{joint}“ teilt keinen Direktor: Körper „{body}“ ist reduziert; dafür braucht er volle Koordinaten",
+
+  // Doubts about a run.
+  "from t = {time} s on nothing is known of the error: {reason}; {cause}":
+    "Ab t = {time} s ist über den Fehler nichts bekannt: {reason}; {cause}",
+  "the second solution that it is read off cannot go on":
+    "die zweite Lösung, an der er abgelesen wird, kann nicht weiter",
+  "it has grown beyond a twentieth of the mechanism's length":
+    "er ist über ein Zwanzigstel der Länge des Mechanismus gewachsen",
+  "positions are off by about {off} m, more than a hundredth of the mechanism's length of {length} m; {cause}":
+    "Lagen weichen um etwa {off} m ab, mehr als ein Hundertstel der Länge des Mechanismus von {length} m; {cause}",
+  "a singular position was passed at t = {time} s, through which {method} holds neither the constraints nor the branch of the motion: what follows may be wrong; {cause}":
+    "Bei t = {time} s wurde eine singuläre Lage durchlaufen, in der {method} weder die Zwangsbedingungen noch den Zweig der Bewegung hält: Was folgt, kann falsch sein; {cause}",
+  "{size} of the largest kinetic energy came from nowhere or went there, more than a tolerance of {tolerance} promises; {cause}":
+    "{size} der größten kinetischen Energie kamen aus dem Nichts oder verschwanden darin, mehr als eine Toleranz von {tolerance} verspricht; {cause}",
+  "{size} of the mechanism's size is how far the joints are open, more than a tolerance of {tolerance} promises; {cause}":
+    "Die Gelenke sind um {size} der Größe des Mechanismus offen, mehr als eine Toleranz von {tolerance} verspricht; {cause}",
+  "{size} of the lightest mass is lost in the rounding of the penalties, more than a tolerance of {tolerance} promises; {cause}":
+    "{size} der leichtesten Masse gehen in der Rundung der Straffaktoren verloren, mehr als eine Toleranz von {tolerance} verspricht; {cause}",
+  "tighten the tolerance, or look at a shorter time":
+    "verschärf die Toleranz, oder betrachte eine kürzere Zeit",
+  "use shorter steps, or leave their size to the tolerance":
+    "nimm kürzere Schritte, oder überlass ihre Länge der Toleranz",
+  "use projection, with taylor or dop853": "nimm Projektion, mit taylor oder dop853",
+  "tighten the tolerance, or use taylor": "verschärf die Toleranz, oder nimm taylor",
+  "at t = {time} s the motion passes within {apart} of a branching position of {joints}; either branch may be right: compare with taylor at a tighter tolerance, or change a length a little":
+    "Bei t = {time} s geht die Bewegung im Abstand {apart} an einer Verzweigung von {joints} vorbei; jeder der Zweige kann richtig sein: Vergleiche mit taylor bei schärferer Toleranz, oder ändere eine Länge ein wenig",
+
+  // Analyses.
+  "this analysis takes at most {most} degrees of freedom, because its work grows with their cube; the scene has {freedoms}":
+    "diese Analyse nimmt höchstens {most} Freiheitsgrade, denn ihre Arbeit wächst mit deren dritter Potenz; die Szene hat {freedoms}",
+  'no equilibrium was found: after {steps} steps a generalized force of {force} N is left, most of it on body "{body}"':
+    "es wurde kein Gleichgewicht gefunden: Nach {steps} Schritten bleibt eine verallgemeinerte Kraft von {force} N, das meiste davon an Körper „{body}“",
+  'there is no steady motion near the start: "{name}" does not let the bodies keep their places in one frame that turns and slides uniformly (a body may spin only about an axis around which its moments of inertia are alike)':
+    "nahe dem Anfang gibt es keine stationäre Bewegung: „{name}“ lässt die Körper ihre Plätze in einem gleichförmig drehenden und gleitenden System nicht behalten (ein Körper darf sich nur um eine Achse drehen, um die seine Trägheitsmomente gleich sind)",
+  'body "{body}" is free to spin about its axis through {joints}, and at t = {time} s a moment of {moment} N m turns it there: how it spins is not a matter of geometry alone':
+    "Körper „{body}“ dreht sich frei um seine Achse durch {joints}, und bei t = {time} s dreht ihn dort ein Moment von {moment} N m: Wie er sich dreht, ist keine Frage der Geometrie allein",
+  'body "{body}" cannot be kept in place: there is no such body':
+    "Körper „{body}“ lässt sich nicht festhalten: Es gibt ihn nicht",
+  "the eigenvalues of the small motions were not found":
+    "die Eigenwerte der kleinen Bewegungen wurden nicht gefunden",
+  "the drivers leave freedoms of motion ({freedoms}): it is not a matter of geometry alone":
+    "die Antriebe lassen Freiheitsgrade übrig ({freedoms}): Das ist keine Frage der Geometrie allein",
+  'the drivers leave freedoms of motion ({freedoms}; "{body}" moves most in one): it is not a matter of geometry alone':
+    "die Antriebe lassen Freiheitsgrade übrig ({freedoms}; am meisten bewegt sich „{body}“): Das ist keine Frage der Geometrie allein",
+  "the start is a singular position of the driven mechanism, where the rows of {joints} depend on others: several branches of the motion begin there, and the drivers do not say which is meant":
+    "der Anfang ist eine singuläre Lage des angetriebenen Mechanismus, in der die Zeilen von {joints} von anderen abhängen: Mehrere Zweige der Bewegung beginnen dort, und die Antriebe sagen nicht, welcher gemeint ist",
+  "at t = {time} s driver {drivers} comes to a dead point: the bodies would have to move infinitely fast there, and no position beyond it closes {joints}":
+    "bei t = {time} s kommt Antrieb {drivers} in eine Totlage: Die Körper müssten sich dort unendlich schnell bewegen, und keine Lage dahinter schließt {joints}",
+  "at t = {time} s the nearest position that meets the drivers is {moved} away from the one that the motion leads to: it may be another branch":
+    "bei t = {time} s liegt die nächste Lage, die den Antrieben genügt, um {moved} neben der, zu der die Bewegung führt: Es kann ein anderer Zweig sein",
+  "{positions} positions are more than one analysis gives":
+    "{positions} Lagen sind mehr, als eine Analyse gibt",
+  "velocities of the start are left out: modes are those of the mechanism at rest; those about the steady motion at these velocities, if there is one, can be asked for":
+    "Die Geschwindigkeiten des Anfangs bleiben weg: Die Eigenformen sind die des ruhenden Mechanismus; die um die stationäre Bewegung mit diesen Geschwindigkeiten, wenn es sie gibt, kann man verlangen",
+  "friction with a coefficient is left out: about a position at rest it has no linear law":
+    "Reibung mit einem Beiwert bleibt weg: Um eine Ruhelage hat sie kein lineares Gesetz",
+  "friction with a coefficient is left out of the forces; a run of the driven mechanism has it":
+    "Reibung mit einem Beiwert fehlt in den Kräften; ein Lauf des angetriebenen Mechanismus hat sie",
+  "joints and drivers leave no freedom: nothing can vibrate":
+    "Gelenke und Antriebe lassen keine Freiheit: Nichts kann schwingen",
+  "the position is not an equilibrium: a generalized force of {left} N is left, which the linear equations leave out":
+    "Die Lage ist kein Gleichgewicht: Eine verallgemeinerte Kraft von {left} N bleibt, die die linearen Gleichungen weglassen",
+  "t = {time} s is next to a singular position: forces grow beyond all bounds there, unless what acts on the bodies happens to be in balance, and those shown are not unique":
+    "t = {time} s liegt bei einer singulären Lage: Dort wachsen Kräfte über alle Grenzen, außer was auf die Körper wirkt, ist gerade im Gleichgewicht, und die gezeigten sind nicht eindeutig",
+  "singular positions were passed, where other branches begin; the smooth one was followed. Where lengths differ by less than a millionth from those that make the position singular, either may be right":
+    "Singuläre Lagen wurden durchlaufen, in denen andere Zweige beginnen; dem glatten wurde gefolgt. Wo Längen um weniger als ein Millionstel von denen abweichen, die die Lage singulär machen, kann jeder richtig sein",
+  'body "{body}" can spin about its axis through {joints}, which moves nothing else: it keeps the {rate} rad/s about it that it starts with, as nothing turns it there':
+    "Körper „{body}“ kann sich um seine Achse durch {joints} drehen, was sonst nichts bewegt: Er behält die {rate} rad/s, mit denen er beginnt, denn nichts dreht ihn dort",
+  "the points of {joints} are given in the world: links between them are as long as the stated positions make them, and rounded positions make wrong lengths; only point_i and point_j keep lengths":
+    "Die Punkte von {joints} sind in der Welt gegeben: Glieder zwischen ihnen sind so lang, wie die angegebenen Lagen sie machen, und gerundete Lagen machen falsche Längen; nur point_i und point_j erhalten Längen",
+
+  // What helps with analyses.
+  "Look whether anything holds that body: a body that falls freely has no equilibrium. Otherwise start nearer to where it comes to rest.":
+    "Sieh nach, ob diesen Körper etwas hält: Ein frei fallender Körper hat kein Gleichgewicht. Sonst beginne näher an seiner Ruhelage.",
+  "Analyse a part of the mechanism as a scene of its own.":
+    "Untersuche einen Teil des Mechanismus als eigene Szene.",
+  "Add a driver for each degree of freedom, or run the scene forward in time.":
+    "Gib jedem Freiheitsgrad einen Antrieb, oder lass die Szene in der Zeit laufen.",
+  "Start a little before or after that position, on the branch that is meant: it is passed on its smooth branch.":
+    "Beginne ein wenig vor oder nach dieser Lage, auf dem Zweig, der gemeint ist: Sie wird auf ihrem glatten Zweig durchlaufen.",
+  "Let the driver turn back before that time, change lengths, drive another joint, or end the analysis before.":
+    "Lass den Antrieb vor dieser Zeit umkehren, ändere Längen, treib ein anderes Gelenk an, oder beende die Analyse vorher.",
+  "Look whether the mechanism is next to a singular position there, and change a length.":
+    "Sieh nach, ob der Mechanismus dort bei einer singulären Lage ist, und ändere eine Länge.",
+
+  "Give the start the velocities of that motion, drive at constant speed, and turn about an axis along the weight. Modes about a position at rest are those about the equilibrium or the start.":
+    "Gib dem Anfang die Geschwindigkeiten dieser Bewegung, treib mit gleicher Geschwindigkeit an, und dreh um eine Achse längs der Schwerkraft. Eigenformen um eine Ruhelage sind die um das Gleichgewicht oder den Anfang.",
+  "Look whether stiffness and damping of the loads are of a sensible size.":
+    "Sieh nach, ob Steifigkeit und Dämpfung der Lasten eine sinnvolle Größe haben.",
+  'Put a universal joint in place of a spherical one at one end, leave the body out by a joint of the kind "rod", or run the scene forward in time.':
+    "Setz an einem Ende ein Kardangelenk an die Stelle eines Kugelgelenks, ersetz den Körper durch ein Gelenk der Art „rod“, oder lass die Szene in der Zeit laufen.",
+  'Raise "every", the interval of outputs, or shorten the duration.':
+    "Vergrößere „every“, den Abstand der Ausgaben, oder verkürze die Dauer.",
+  "Check the name, and keep fewer bodies in place.": "Prüf den Namen, und halt weniger Körper fest.",
+
+  // Rooms of lectures.
+  "there is no lecture room {code}": "es gibt keinen Vorlesungsraum {code}",
+  "check the code; the lecture may be over": "Prüf den Code; die Vorlesung kann zu Ende sein.",
+  "a room cannot be named {typed}": "ein Raum kann nicht {typed} heißen",
+  "write {n} to {most} letters a to z and digits, with single hyphens between: mbs-2026":
+    "Schreib {n} bis {most} Buchstaben a bis z und Ziffern, mit einzelnen Bindestrichen dazwischen: mbs-2026",
+  "the room {name} belongs to somebody else": "der Raum {name} gehört jemand anderem",
+  "choose another name, such as one with your own or with the term; a name is opened again only by who opened it first":
+    "Wähl einen anderen Namen, etwa mit deinem eigenen oder mit dem Semester; einen Namen öffnet nur wieder, wer ihn zuerst geöffnet hat.",
+};
