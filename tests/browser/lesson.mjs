@@ -98,6 +98,8 @@ async function predict() {
   await keep.click();
   await page.locator(".whose b", { hasText: "Ada Lovelace" }).waitFor();
   await panel.getByText("You predicted: Twice the weight").waitFor();
+  await page.locator(".neighbours").first().waitFor();
+  assert.equal(await page.locator(".neighbours").count(), 1, "made anew for the name, and once");
   await page.reload();
   await panel.getByText("“the weight, and the circle”").waitFor();
   assert.equal(await panel.getByText("What happened").count(), 0, "the run has not shown it yet");

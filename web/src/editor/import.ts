@@ -69,6 +69,9 @@ const aboutSideCar = (): string =>
     { example: EXAMPLE },
   );
 
+/** What becomes of the scene that is there. */
+export const replacing = (): string => t("It takes the place of the scene that you have written.");
+
 /** A robot as it came: the texts of its file and of its side-car. */
 export interface Robot {
   name: string;
@@ -77,7 +80,7 @@ export interface Robot {
 }
 
 /** Imports a robot that was dropped or pasted, and tells what became of it; `open` is given the text of its scene. */
-export function importDialog(robot: Robot, open: (scene: string) => void): void {
+export function importDialog(robot: Robot, open: (scene: string) => void, replaces = false): void {
   const side = h("input", { type: "file", id: "robot-side", class: "field", accept: ".json" });
   const result = h("div", { class: "stack", "aria-live": "polite" }, h("p", null, t("It is being read …")));
   const box = dialog(
@@ -86,6 +89,7 @@ export function importDialog(robot: Robot, open: (scene: string) => void): void 
       "div",
       { class: "stack" },
       result,
+      replaces ? h("p", { class: "help" }, replacing()) : null,
       h("label", { for: "robot-side" }, t("Side-car, if the robot has loops (JSON)")),
       side,
       h("p", { class: "help" }, aboutSideCar()),

@@ -4,7 +4,7 @@ import { h } from "../core/dom";
 import { recall } from "../core/prefs";
 import { t } from "../core/texts";
 import { dialog } from "../ui/dialog";
-import { importDialog } from "./import";
+import { importDialog, replacing } from "./import";
 import { isMarkup } from "./markup";
 
 /** Larger files are not read: twice what the server takes of a robot. */
@@ -48,7 +48,7 @@ export function takeIncoming(receiver: Receiver): () => void {
     if (!brings(event) && !isMarkup(text)) return;
     event.preventDefault();
     if (brings(event)) void takeFiles([...(event.dataTransfer?.files ?? [])], receiver);
-    else importDialog({ name: t("The text"), urdf: text }, receiver.open);
+    else importDialog({ name: t("The text"), urdf: text }, receiver.open, replaces(receiver));
   });
   listen("paste", (event) => {
     const files = [...(event.clipboardData?.files ?? [])];
@@ -57,13 +57,16 @@ export function takeIncoming(receiver: Receiver): () => void {
     if (elsewhere || !(files.length > 0 || isMarkup(text))) return;
     event.preventDefault();
     if (files.length > 0) void takeFiles(files, receiver);
-    else importDialog({ name: t("The text"), urdf: text }, receiver.open);
+    else importDialog({ name: t("The text"), urdf: text }, receiver.open, replaces(receiver));
   });
   return () => {
     veil.remove();
     ending.abort();
   };
 }
+
+/** Whether a scene would be lost. */
+const replaces = ({ undoable }: Receiver): boolean => !undoable && recall("scene-draft") !== null;
 
 async function takeFiles(files: File[], receiver: Receiver): Promise<void> {
   const [first] = files;
@@ -76,7 +79,8 @@ async function takeFiles(files: File[], receiver: Receiver): Promise<void> {
   const read = await Promise.all(files.map(async (file) => ({ name: file.name, text: await file.text() })));
   const robot = read.find(({ text }) => isMarkup(text));
   const json = read.find(({ text }) => /^\uFEFF?\s*\{/.test(text));
-  if (robot) importDialog({ name: robot.name, urdf: robot.text, side: json?.text }, receiver.open);
+  if (robot)
+    importDialog({ name: robot.name, urdf: robot.text, side: json?.text }, receiver.open, replaces(receiver));
   else if (json) offerScene(json, receiver);
   else refuse(t("{name} is neither a scene (JSON) nor a robot (URDF).", { name: first.name }));
 }
@@ -86,14 +90,14 @@ function refuse(why: string): void {
 }
 
 /** A scene from a file; where another is being written, its author is asked first. */
-function offerScene({ name, text }: { name: string; text: string }, { open, undoable }: Receiver): void {
-  if (undoable || !recall("scene-draft")) {
-    open(text);
+function offerScene({ name, text }: { name: string; text: string }, receiver: Receiver): void {
+  if (!replaces(receiver)) {
+    receiver.open(text);
     return;
   }
   const box = dialog(
     t("Open {name}", { name }),
-    h("p", null, t("It takes the place of the scene that you have written.")),
+    h("p", null, replacing()),
     h(
       "div",
       { class: "row" },
@@ -104,7 +108,7 @@ function offerScene({ name, text }: { name: string; text: string }, { open, undo
           class: "button primary",
           onclick: () => {
             box.close();
-            open(text);
+            receiver.open(text);
           },
         },
         t("Open as your own scene"),

@@ -160,6 +160,8 @@ async function showNeighbours(
           h("b", { lang: AUTHORED }, lesson.title),
         )
       : null;
+  // A lesson that was made anew for another name may have been told them meanwhile.
+  place.querySelector(":scope > .neighbours")?.remove();
   place.append(
     h(
       "nav",

@@ -87,7 +87,6 @@ export class Drawing {
     if (!this.parts) {
       this.parts = partsOf(this.scene, state);
       this.face(state);
-      this.fit(false);
     }
     if (!this.byHand) this.keepInSight(state);
     this.paint();
@@ -96,11 +95,12 @@ export class Drawing {
 
   /** Draws a changed scene, of which `first` is the first state. */
   rebuild(scene: Scene, first: SessionState): void {
+    if (!this.scene) this.eye.standUnder(scene.gravity);
     this.scene = scene;
     this.parts = partsOf(scene, first);
     this.swept = false;
     this.state ??= first;
-    if (!this.byHand) this.fit(false);
+    if (!this.byHand) this.face(first);
     this.paint();
   }
 
@@ -231,6 +231,7 @@ export class Drawing {
     const normal = this.parts && planeOf(this.parts, state);
     if (normal) this.eye.faceOn(normal);
     this.eye.lookFrom(this.session.camera);
+    this.fit(false);
   }
 
   private shown(): Shown | undefined {

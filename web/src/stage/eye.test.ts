@@ -62,3 +62,9 @@ it("a shift of the picture is the same shift of the world", () => {
   expect(b[0] - a[0]).toBeCloseTo(30);
   expect(b[1] - a[1]).toBeCloseTo(-12);
 });
+
+it("stands as gravity says once that is known", () => {
+  const late = Eye.under(undefined);
+  late.standUnder([0, -9.81, 0]);
+  expect(late.axes).toEqual(Eye.under([0, -9.81, 0]).axes);
+});

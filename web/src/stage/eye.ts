@@ -31,6 +31,9 @@ export function boxOf(points: Iterable<Point>): Box | undefined {
   return box;
 }
 
+const upward = (gravity: Vec3 | undefined): Vec3 =>
+  gravity && norm(gravity) > 0 ? unit(scale(gravity, -1)) : [0, 0, 1];
+
 export class Eye {
   width = 800;
   height = 500;
@@ -47,14 +50,20 @@ export class Eye {
   private corner: [turn: number, tilt: number] = SIDES.corner;
 
   /** `up` is a unit vector. */
-  constructor(readonly up: Vec3) {
+  constructor(public up: Vec3) {
     this.axes = this.made();
     this.lookFrom("corner");
   }
 
   /** With gravity down, or z up without it. */
   static under(gravity: Vec3 | undefined): Eye {
-    return new Eye(gravity && norm(gravity) > 0 ? unit(scale(gravity, -1)) : [0, 0, 1]);
+    return new Eye(upward(gravity));
+  }
+
+  /** Who follows a lecture learns only from its scene which way is down. */
+  standUnder(gravity: Vec3 | undefined): void {
+    this.up = upward(gravity);
+    this.axes = this.made();
   }
 
   /** Looks as another eye does. */

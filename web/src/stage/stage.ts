@@ -27,6 +27,8 @@ const MAX_REST_MS = 1500;
 const FRAME_COST_DECAY = 0.9;
 /** The viewer starts to load when the stage is this close to the visible part of the page. */
 const LOAD_WITHIN = "200px";
+/** How often the state at the start is looked for where the scene came before it, and between two of these, ms. */
+const [START_TRIES, START_MS] = [25, 200];
 /** A viewer that is behind the clock by more than this shows another moment, s: the drawing is shown in its place. */
 const BEHIND = 0.1;
 
@@ -51,6 +53,9 @@ export class Stage {
   private starting = false;
   private failed = false;
   private gone = false;
+  /** How often the state at the start was not there yet, and when it is looked for again. */
+  private triesForStart = 0;
+  private startTimer = 0;
   /** The picture is drawn anew in every frame. */
   private ticking = false;
   /** The result of an analysis is drawn anew in every frame. */
@@ -153,11 +158,24 @@ export class Stage {
     if (!this.ticking) this.draw();
   }
 
-  /** Draws a changed scene. Only the state at the start tells where the parts of the bodies are. */
+  /**
+   * Draws a changed scene. Only the state at the start tells where the parts of the bodies are: who comes to a run that goes on
+   * learns it from the recorded motion, which may come after the scene.
+   */
   private rebuild(): void {
-    const first = this.session.past.all[0];
-    if (!this.session.view || first?.time !== 0) return;
-    this.drawing.rebuild(this.session.view.scene as Scene, first);
+    const { session } = this;
+    const first = session.past.all[0];
+    const known = first?.time === 0 ? first : session.moment(0);
+    // Of a run that a server brought back after its restart nothing is recorded before.
+    const start = known ?? (this.triesForStart >= START_TRIES ? session.latest : undefined);
+    clearTimeout(this.startTimer);
+    if (start) this.triesForStart = 0;
+    else {
+      this.triesForStart += 1;
+      this.startTimer = window.setTimeout(() => !this.gone && this.rebuild(), START_MS);
+    }
+    if (!session.view || !start) return;
+    this.drawing.rebuild(session.view.scene as Scene, start);
     this.draw();
   }
 

@@ -292,6 +292,13 @@ function help(): void {
       "p",
       { class: "help" },
       t(
+        "The lines between text, picture and inspector are dragged; with the keys, when one has the focus: the arrows, and Enter to put it back.",
+      ),
+    ),
+    h(
+      "p",
+      { class: "help" },
+      t(
         "In the drawing: drag beside the mechanism to look from elsewhere, drag a body to pull it, Ctrl and the wheel to come closer; with the keys, when it has the focus: Shift and the arrows, + and −.",
       ),
     ),

@@ -248,6 +248,8 @@ export const frame = {
   "Words, equations, scenes, Python: {documentation}.":
     "Begriffe, Gleichungen, Szenen, Python: {documentation}.",
   "the documentation": "die Dokumentation",
+  "The lines between text, picture and inspector are dragged; with the keys, when one has the focus: the arrows, and Enter to put it back.":
+    "Die Linien zwischen Text, Bild und Inspektor werden gezogen; mit den Tasten, wenn eine den Fokus hat: die Pfeile, und Enter stellt den Anfang wieder her.",
   "In the drawing: drag beside the mechanism to look from elsewhere, drag a body to pull it, Ctrl and the wheel to come closer; with the keys, when it has the focus: Shift and the arrows, + and −.":
     "In der Zeichnung: Neben dem Mechanismus ziehen dreht den Blick, an einem Körper ziehen bewegt ihn, Strg und Mausrad holen näher heran; mit Tasten, wenn sie den Fokus hat: Umschalt und die Pfeile, + und −.",
   "Where the run is computed. Here: by the engine in this page, without the server; its last digits differ. Answers are always checked by the server's own runs.":
