@@ -181,12 +181,12 @@ impl Radau {
     /// Evaluates the end of a step of size h in a run to `end`. False if there is no state there: stages that were found do not
     /// show that it is.
     fn reach_end(&mut self, system: &mut impl OdeSystem, h: f64, end: f64) -> bool {
-        let StepRecord { t, y, .. } = &self.last;
+        let y = &self.last.y;
         let Some(z) = self.stages.z.last() else { return false };
         for (trial, (x, z)) in self.trial.iter_mut().zip(y.iter().zip(z)) {
             *trial = x + z;
         }
-        let time = if h == end - t { end } else { t + h };
+        let time = self.last.end_of(h, end);
         system.begin_stage(self.stages.z.len() - 1, false);
         system.rhs(time, &self.trial, &mut self.trial_rate);
         self.trial_rate.iter().all(|x| x.is_finite())
@@ -243,12 +243,10 @@ impl Radau {
             return Err(StopReason::NoConvergence { time: self.last.t, step: h });
         }
         self.last.steps.rejected += 1;
-        if !self.jacobian.fresh {
-            self.differentiate(system)?;
-        }
         self.largest = UNSOLVED * h;
         self.h = if self.fixed { self.h } else { self.largest };
-        Ok(())
+        // Also where it is fresh: what was foreseen of the middle of the longer step may be what was wrong.
+        self.differentiate(system)
     }
 
     /// Error of the step relative to the tolerance; after a refusal, or at the start, its stiff part is filtered twice.
