@@ -15,6 +15,11 @@ pub trait OdeSystem {
     /// step: what was found there before is near.
     fn begin_stage(&mut self, _stage: usize, _first: bool) {}
 
+    /// By how much errors of y are magnified where it was evaluated last.
+    fn magnification(&self) -> f64 {
+        1.0
+    }
+
     /// Power of what changes the energy at the state that was evaluated last, W, where there is such and the system knows it.
     fn power(&self) -> Option<f64> {
         None
@@ -42,6 +47,9 @@ impl<S: OdeSystem + ?Sized> OdeSystem for &mut S {
     }
     fn begin_stage(&mut self, stage: usize, first: bool) {
         (**self).begin_stage(stage, first);
+    }
+    fn magnification(&self) -> f64 {
+        (**self).magnification()
     }
     fn power(&self) -> Option<f64> {
         (**self).power()

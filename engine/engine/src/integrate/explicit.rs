@@ -22,6 +22,11 @@ use triad_dynamics::state;
 /// sum of steps must not add a sliver.
 const FIXED_STEP_STRETCH: f64 = 1.000_001;
 
+/// Change of a step that led where there is no state, as a factor, and how fast larger ones are tried again: ten times as short, and as
+/// long again at once, steps spent most of their work beyond the edge of a chart.
+const NO_STATE: f64 = 0.5;
+const AFTER_NO_STATE: f64 = 1.5;
+
 /// How steps are chosen.
 #[derive(Clone, Copy, Debug)]
 enum Control {
@@ -44,8 +49,11 @@ pub struct Explicit {
     last: StepRecord,
     /// ẏ at the end of the last step.
     rate: Vec<f64>,
-    /// Size of the next step.
+    /// ẏ at the end of the step that is tried.
+    end_rate: Vec<f64>,
+    /// Size of the next step, and the largest that is tried after one that led where there is no state.
     h: f64,
+    largest: f64,
     /// State at the start of the last step, and the stages of the step.
     y_old: Vec<f64>,
     k: Vec<Vec<f64>>,
@@ -100,7 +108,9 @@ impl Explicit {
             control,
             last: StepRecord::new(t, y),
             rate: vec![0.0; n],
+            end_rate: vec![0.0; n],
             h: 0.0,
+            largest: f64::INFINITY,
             y_old: y.to_vec(),
             k: vec![vec![0.0; n]; tableau.stored()],
             trial: vec![0.0; n],
@@ -134,6 +144,8 @@ impl Explicit {
         if self.trial.iter().any(|y| !y.is_finite()) {
             return Err(self.last.not_finite());
         }
+        // What is not finite there ends the next step.
+        self.reach_end(system, h, end);
         self.accept(system, h, end);
         Ok(())
     }
@@ -150,19 +162,23 @@ impl Explicit {
         loop {
             let h = self.last.next_size(self.h, end)?;
             self.attempt(system, h);
-            let error = self.tableau.error(h, &self.k, &self.last.y, &self.trial, tolerance);
+            let error =
+                self.tableau.error(h, &self.k, &self.last.y, &self.trial, tolerance) * system.magnification();
+            let error = if error < 1.0 && !self.reach_end(system, h, end) { f64::NAN } else { error };
             if error < 1.0 {
                 let grown = (SAFETY * libm::pow(error.max(MIN_ERROR), power)).clamp(least, greatest);
                 let next = h * if rejected { grown.min(1.0) } else { grown };
                 self.accept(system, h, end);
                 // A step that was cut to meet the end says nothing about the next one.
-                self.h = if h < self.h { self.h.max(next) } else { next };
+                self.h = if h < self.h { self.h.max(next) } else { next }.min(self.largest);
+                self.largest *= AFTER_NO_STATE;
                 return Ok(());
             }
             if error.is_finite() {
                 self.h = h * (SAFETY * libm::pow(error, power)).max(least);
             } else if h > MIN_RETRY * (1.0 + self.last.t.abs()) {
-                self.h = 0.1 * h;
+                self.largest = NO_STATE * h;
+                self.h = self.largest;
             } else {
                 return Err(self.last.not_finite());
             }
@@ -200,6 +216,7 @@ impl Explicit {
             h = (h * control.shrink(error, untouched)).max(least);
             untouched = false;
         };
+        self.reach_end(system, h, end);
         self.accept(system, h, end);
         self.h = if untouched { control.next(h, error) } else { h };
         Ok(())
@@ -217,6 +234,7 @@ impl Explicit {
         k[0].copy_from_slice(rate);
         for stage in 1..tableau.stages {
             combine(trial, y, h, rows[stage], k);
+            system.begin_stage(stage - 1, true);
             system.rhs(*t + tableau.nodes[stage] * h, trial, &mut k[stage]);
         }
         if !tableau.reuses_last {
@@ -224,16 +242,25 @@ impl Explicit {
         }
     }
 
+    /// Evaluates the end of a step of size h in a run to `end`. False if there is no state there: stages that were found do not show
+    /// that it is.
+    fn reach_end(&mut self, system: &mut impl OdeSystem, h: f64, end: f64) -> bool {
+        if self.tableau.reuses_last {
+            self.end_rate.copy_from_slice(&self.k[self.tableau.stages - 1]);
+        } else {
+            system.begin_stage(self.tableau.stages - 1, true);
+            system.rhs(self.last.end_of(h, end), &self.trial, &mut self.end_rate);
+        }
+        self.end_rate.iter().all(|rate| rate.is_finite())
+    }
+
+    /// Takes over the step whose end was evaluated last.
     fn accept(&mut self, system: &mut impl OdeSystem, h: f64, end: f64) {
         self.y_old.copy_from_slice(&self.last.y);
         self.last.y.copy_from_slice(&self.trial);
         self.last.advance(h, end);
         let StepRecord { t, y, .. } = &mut self.last;
-        if self.tableau.reuses_last {
-            self.rate.copy_from_slice(&self.k[self.tableau.stages - 1]);
-        } else {
-            system.rhs(*t, y, &mut self.rate);
-        }
+        std::mem::swap(&mut self.rate, &mut self.end_rate);
         system.after_step(*t, y, &mut self.rate);
         self.dense_ready = false;
     }
@@ -302,6 +329,7 @@ impl OdeMethod for Explicit {
         self.last.y.copy_from_slice(y);
         system.rhs(self.last.t, y, &mut self.rate);
         self.last.h = 0.0;
+        self.largest = f64::INFINITY;
     }
 }
 

@@ -9,6 +9,10 @@ mod tree_dynamics;
 
 mod numbers;
 
+mod tilt;
+
+mod guess;
+
 mod chart;
 
 mod within;

@@ -109,10 +109,14 @@ impl StepRecord {
         Ok(())
     }
 
+    /// The end of the next step if that has the size h, in a run to `end`.
+    pub(super) fn end_of(&self, h: f64, end: f64) -> f64 {
+        if h == end - self.t { end } else { self.t + h }
+    }
+
     /// Counts an accepted step of size h in a run to `end`. The state is the caller's to write.
     pub(super) fn advance(&mut self, h: f64, end: f64) {
-        self.t_old = self.t;
-        self.t = if h == end - self.t { end } else { self.t + h };
+        (self.t_old, self.t) = (self.t, self.end_of(h, end));
         self.h = h;
         self.steps.accepted += 1;
     }

@@ -4,6 +4,7 @@
 mod common;
 
 mod closed_forms;
+mod costs;
 mod events;
 mod exactness;
 mod explicit;

@@ -5,18 +5,33 @@
 //! and accelerations follow from η̇ = L ṗ and η̈ = L p̈. In a chart the constraints hold at every stage of an integrator, not
 //! only at the ends of steps.
 
+mod search;
+
+use super::guess::Guess;
 use super::numbers::Numbers;
+use super::tilt::{Search, Tilt};
 use nalgebra::{DMatrix, DVector};
+use search::AtCoordinates;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank;
 use triad_dynamics::constraints::tangent;
-use triad_dynamics::newton::{Projectable, Projected, project_positions, project_velocities, rules};
+use triad_dynamics::newton::{project_positions, project_velocities, rules};
 use triad_linalg::independent_rows;
 
 /// Iterations of one solution above which the chart is taken anew at the current state.
 const SLOW: usize = 9;
-/// Largest entry of Z above which other independent coordinates are chosen.
+/// Largest entry of Z above which other independent coordinates are chosen, and below which none are looked for. In between others
+/// are chosen if they make it less by this factor: of a body that turns one is always near to one, and what a chart with a
+/// large one foresees reaches less far than a step.
 const ILL_CONDITIONED: f64 = 4.0;
+const WELL_CONDITIONED: f64 = 1.3;
+const BETTER: f64 = 0.8;
+/// Part of the tolerance that a step in a partition may use of it, measured by its few independent coordinates: then errors are those of
+/// the same method with projection.
+const PART_OF_TOLERANCE: f64 = 0.1;
+/// How much farther than foreseen a position may be found, as a factor, and in lengths of the mechanism.
+const FARTHER: f64 = 3.0;
+const NEAR: f64 = 1e-9;
 /// Largest entry of (L Z)⁻¹ above which tangent coordinates are taken anew: the chart is tilted by 34 degrees then.
 const TILTED: f64 = 1.2;
 /// Pivot of a row of the basis, relative to the largest, below which it depends on the rows that are chosen.
@@ -50,49 +65,11 @@ pub struct Chart {
     pub choices: u64,
     /// What η or η̇ still differ by.
     gap: DVector<f64>,
+    search: Search,
+    /// Where the search for p began.
+    start: DVector<f64>,
     /// A correction of p, or p̈.
     change: DVector<f64>,
-}
-
-/// The state from which the search for the next one begins: the one that was found last.
-#[derive(Clone, Debug)]
-pub struct Guess {
-    p: DVector<f64>,
-    p_dot: DVector<f64>,
-    eta: DVector<f64>,
-    /// Where the chart was taken: p and η.
-    taken: (DVector<f64>, DVector<f64>),
-    /// Most iterations of a search since the chart was taken.
-    iterations: usize,
-}
-
-impl Guess {
-    /// Takes over all that another one of the same chart has found.
-    pub fn copy_from(&mut self, other: &Self) {
-        self.p.copy_from(&other.p);
-        self.p_dot.copy_from(&other.p_dot);
-        self.eta.copy_from(&other.eta);
-        self.taken.0.copy_from(&other.taken.0);
-        self.taken.1.copy_from(&other.taken.1);
-        self.iterations = other.iterations;
-    }
-
-    /// Is as slow as another one of the same chart.
-    pub fn share_slowness(&mut self, other: &Self) {
-        self.iterations = self.iterations.max(other.iterations);
-    }
-
-    /// Goes back to where the chart was taken: the next search must not begin where this one was lost.
-    fn go_back(&mut self) {
-        self.p.copy_from(&self.taken.0);
-        self.eta.copy_from(&self.taken.1);
-        self.iterations = usize::MAX;
-    }
-
-    /// Remembers how many times a search went on.
-    fn note(&mut self, projected: Projected) {
-        self.iterations = self.iterations.max(projected.corrections.saturating_sub(1));
-    }
 }
 
 impl Chart {
@@ -128,16 +105,28 @@ impl Chart {
             chosen: Vec::new(),
             choices: 0,
             gap: DVector::zeros(freedoms),
+            search: Search::new(freedoms),
+            start: DVector::zeros(n),
             change: DVector::zeros(n),
         };
         let eta = DVector::zeros(freedoms);
-        let mut guess = Guess { taken: (p.clone(), eta.clone()), p, p_dot, eta, iterations: 0 };
+        let tilt = Tilt::new(if chart.is_open() { 0 } else { freedoms });
+        let mut guess = Guess { taken: (p.clone(), eta.clone()), p, p_dot, eta, iterations: 0, tilt };
         chart.take(mechanism, t, y, &mut guess).then_some((chart, guess))
     }
 
     /// Whether searches have become slow, or angles large: a new chart at the current state will be better.
     pub fn needs_refresh(&self, guess: &Guess) -> bool {
-        guess.iterations > SLOW || self.numbers.is_tilted(guess.p.as_slice())
+        let steep = !self.chosen.is_empty() && guess.tilt.is_steep(WELL_CONDITIONED);
+        steep || guess.iterations > SLOW || self.numbers.is_tilted(guess.p.as_slice())
+    }
+
+    /// By how much errors of (η, η̇) are magnified in what was found, for methods that measure them by η alone.
+    pub fn magnification(&self, found: &Guess) -> f64 {
+        match self.numbers {
+            Numbers::Joints { .. } => 1.0,
+            Numbers::Coordinates => found.tilt.steepness(&self.basis) / PART_OF_TOLERANCE,
+        }
     }
 
     /// Number of independent coordinates f.
@@ -160,6 +149,7 @@ impl Chart {
         self.numbers.commit(guess.p.as_slice());
         let Some(basis) = self.allowed_motions(mechanism, t, y, guess) else { return false };
         guess.iterations = 0;
+        guess.tilt.forget();
         let taken = match self.numbers {
             Numbers::Joints { .. } => {
                 self.tilt(mechanism, basis, guess);
@@ -199,13 +189,23 @@ impl Chart {
             let square = chosen.len() == basis.ncols();
             square.then(|| basis.select_rows(chosen).try_inverse()).flatten().map(|inverse| basis * inverse)
         };
-        let kept = solved(&self.chosen).filter(|z| z.amax() < ILL_CONDITIONED);
-        if kept.is_none() {
-            self.chosen = independent_rows(basis, DEPENDENT);
-            self.choices += 1;
+        let kept = solved(&self.chosen);
+        let largest = kept.as_ref().map_or(f64::INFINITY, DMatrix::amax);
+        if largest < WELL_CONDITIONED
+            && let Some(kept) = kept
+        {
+            self.basis = kept;
+        } else {
+            let chosen = independent_rows(basis, DEPENDENT);
+            let Some(found) = solved(&chosen) else { return false };
+            if let Some(kept) = kept.filter(|_| largest < ILL_CONDITIONED && found.amax() > BETTER * largest)
+            {
+                self.basis = kept;
+            } else {
+                (self.chosen, self.basis) = (chosen, found);
+                self.choices += 1;
+            }
         }
-        let Some(found) = kept.or_else(|| solved(&self.chosen)) else { return false };
-        self.basis = found;
         self.base.fill(0.0);
         self.functionals.fill(0.0);
         for (row, &column) in self.chosen.iter().enumerate() {
@@ -285,18 +285,27 @@ impl Chart {
         }
         self.gap.copy_from_slice(eta);
         self.gap -= &guess.eta;
-        guess.p.gemv(1.0, &self.basis, &self.gap, 1.0);
+        self.search.ask(&guess.tilt, &self.gap);
+        self.search.from.copy_from(&guess.eta);
+        self.start.copy_from(&guess.p);
+        guess.p.gemv(1.0, &self.basis, &self.search.asked, 1.0);
+        let foreseen = self.start.metric_distance(&guess.p);
         if !self.numbers.place(mechanism, guess.p.as_slice()) {
             return false;
         }
         let size = mechanism.system.length.max(1.0);
-        let mut on = AtCoordinates { chart: self, mechanism, guess, wanted: eta };
+        let mut on =
+            AtCoordinates { chart: self, mechanism: &mut *mechanism, guess: &mut *guess, wanted: eta };
         let projected = project_positions(&mut on, &rules::CHART_POSITIONS, size);
         guess.note(projected);
-        if projected.has_converged() {
+        // What lies much farther away than the tangent says is on another branch, unless drivers have moved it.
+        let driven = !mechanism.system.model.drivers.is_empty();
+        let near = driven || self.start.metric_distance(&guess.p) < FARTHER * foreseen + NEAR * size;
+        let found = projected.has_converged() && near;
+        if found {
             guess.eta.copy_from_slice(eta);
         }
-        projected.has_converged()
+        found
     }
 
     /// Φ_p ṗ = ν with L ṗ = η̇, at the position in place — eq. (10.4).
@@ -308,6 +317,8 @@ impl Chart {
             return true;
         }
         let mut on = AtCoordinates { chart: self, mechanism, guess, wanted: eta_dot };
+        // The first correction also takes out what the last velocities violate here.
+        on.chart.search.mixed = true;
         let projected = project_velocities(&mut on, &rules::CHART_VELOCITIES, 1.0);
         guess.note(projected);
         self.numbers.move_at(mechanism, guess.p_dot.as_slice());
@@ -354,48 +365,5 @@ impl Chart {
             row /= *w;
         }
         Some(basis)
-    }
-}
-
-/// A guess that is moved onto the constraints and to given η, or η̇, in turn — eq. (10.4).
-struct AtCoordinates<'a> {
-    chart: &'a mut Chart,
-    mechanism: &'a mut Mechanism,
-    guess: &'a mut Guess,
-    /// η, or η̇.
-    wanted: &'a [f64],
-}
-
-impl Projectable for AtCoordinates<'_> {
-    fn linearize(&mut self) {
-        let Mechanism { system, state, elimination, .. } = &mut *self.mechanism;
-        elimination.linearize(system, state);
-    }
-
-    /// p ← p + Δp, then p ← p + Z (η − L (p − p₀)); the sizes of both together.
-    fn correct_positions(&mut self) -> f64 {
-        let Self { chart, mechanism, guess, wanted } = self;
-        let Chart { numbers, base, basis, functionals, gap, change, .. } = &mut **chart;
-        let step = numbers.correct_positions(mechanism, &mut guess.p, change);
-        gap.copy_from_slice(wanted);
-        *gap -= &*functionals * (&guess.p - &*base);
-        guess.p.gemv(1.0, basis, gap, 1.0);
-        if !numbers.place(mechanism, guess.p.as_slice()) {
-            return f64::NAN;
-        }
-        step + gap.amax()
-    }
-
-    /// ṗ ← ṗ + Z (η̇ − L ṗ), then ṗ ← ṗ + Δṗ, which the state has not taken over yet; the sizes of both together, relative to
-    /// the fastest.
-    fn correct_velocities(&mut self) -> f64 {
-        let Self { chart, mechanism, guess, wanted } = self;
-        let Chart { numbers, basis, functionals, gap, change, .. } = &mut **chart;
-        gap.copy_from_slice(wanted);
-        gap.gemv(-1.0, functionals, &guess.p_dot, 1.0);
-        guess.p_dot.gemv(1.0, basis, gap, 1.0);
-        numbers.move_at(mechanism, guess.p_dot.as_slice());
-        let step = numbers.correct_velocities(mechanism, &mut guess.p_dot, change) + gap.amax();
-        step / mechanism.system.length.max(1.0).max(guess.p_dot.amax())
     }
 }

@@ -1,6 +1,7 @@
 //! A method for ordinary differential equations, applied to (η, η̇) of a [`Chart`].
 
-use super::chart::{Chart, Guess};
+use super::chart::Chart;
+use super::guess::Guess;
 use crate::integrate::hermite;
 use crate::integrate::power::{load_power, power};
 use crate::integrate::step::{StepRecord, StopReason};
@@ -21,24 +22,44 @@ struct InCoordinates<'a> {
     stage: Option<usize>,
     /// The stage that was evaluated last.
     at: Option<usize>,
+    /// What was found at the start of the last step, when states between its ends are asked for: each is sought from where it is nearest.
+    start: Option<&'a Guess>,
     /// Whether the last evaluation found a state, which is in place then.
     found: bool,
 }
 
-impl InCoordinates<'_> {
+impl<'a> InCoordinates<'a> {
+    fn new(
+        mechanism: &'a mut Mechanism,
+        (chart, guess, at_stages): (&'a mut Chart, &'a mut Guess, &'a mut Vec<Guess>),
+    ) -> Self {
+        Self { mechanism, chart, guess, at_stages, stage: None, at: None, start: None, found: true }
+    }
+
     /// Puts the mechanism into the state x and returns whether there is one; the search begins where the stage was found before.
     fn find(&mut self, t: f64, x: &[f64]) -> bool {
         let Self { mechanism, chart, at_stages, guess, .. } = self;
         self.at = self.stage.take().filter(|stage| *stage < at_stages.len());
-        self.found = match self.at.and_then(|stage| at_stages.get_mut(stage)) {
-            Some(at_stage) => {
-                let found = chart.find_state(mechanism, t, x, at_stage);
-                guess.share_slowness(at_stage);
-                found
-            }
-            None => chart.find_state(mechanism, t, x, guess),
+        self.found = if let Some(at_stage) = self.at.and_then(|stage| at_stages.get_mut(stage)) {
+            let found = chart.find_state(mechanism, t, x, at_stage);
+            guess.share_slowness(at_stage);
+            found
+        } else {
+            self.go_to_nearest(x);
+            self.chart.find_state(self.mechanism, t, x, self.guess)
         };
         self.found
+    }
+
+    /// Between the ends of the last step, takes what was found nearest to x for the guess.
+    fn go_to_nearest(&mut self, x: &[f64]) {
+        let Some(start) = self.start else { return };
+        let eta = &x[..self.chart.freedoms()];
+        for known in self.at_stages.iter().chain([start]) {
+            if known.distance(eta) < self.guess.distance(eta) {
+                self.guess.copy_from(known);
+            }
+        }
     }
 
     /// The rate of x at the state in place; `moved` says that the positions are others than last time.
@@ -92,6 +113,11 @@ impl OdeSystem for InCoordinates<'_> {
                 guess.copy_from(before.last().unwrap_or(self.guess));
             }
         }
+    }
+
+    fn magnification(&self) -> f64 {
+        let guess = self.at.and_then(|stage| self.at_stages.get(stage)).unwrap_or(self.guess);
+        self.chart.magnification(guess)
     }
 
     fn power(&self) -> Option<f64> {
@@ -157,15 +183,7 @@ impl<M: OdeMethod> InChart<M> {
         chart.coordinates(&guess, &mut x);
         let (last, guess_old) = (StepRecord::new(t, y), guess.clone());
         let mut at_stages = Vec::new();
-        let mut system = InCoordinates {
-            mechanism,
-            chart: &mut chart,
-            guess: &mut guess,
-            at_stages: &mut at_stages,
-            stage: None,
-            at: None,
-            found: true,
-        };
+        let mut system = InCoordinates::new(mechanism, (&mut chart, &mut guess, &mut at_stages));
         let method = start.start(&mut system, t, &x);
         Self { method, chart, guess, at_stages, y_old: y.to_vec(), guess_old, last, x }
     }
@@ -183,8 +201,7 @@ impl<M: OdeMethod> InChart<M> {
             let known = std::iter::once(&self.guess_old).chain(&self.at_stages).filter(|_| just_stepped);
             let step: Vec<Vec<f64>> = known.map(|found| self.chart.translate(&before, found)).collect();
             let Self { method, chart, guess, at_stages, x, .. } = self;
-            let mut system =
-                InCoordinates { mechanism, chart, guess, at_stages, stage: None, at: None, found: true };
+            let mut system = InCoordinates::new(mechanism, (chart, guess, at_stages));
             method.restart(&mut system, x, &step);
         }
         Ok(())
@@ -193,8 +210,7 @@ impl<M: OdeMethod> InChart<M> {
     /// Returns whether the end of the step was found.
     fn advance(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<bool, StopReason> {
         let Self { method, chart, guess, at_stages, .. } = self;
-        let mut system =
-            InCoordinates { mechanism, chart, guess, at_stages, stage: None, at: None, found: true };
+        let mut system = InCoordinates::new(mechanism, (chart, guess, at_stages));
         method.step(&mut system, end)?;
         Ok(system.found)
     }
@@ -259,12 +275,11 @@ impl<M: OdeMethod> Stepper for InChart<M> {
         }
         // The guess of the run stays as it is: outputs between steps must not change the run.
         let mut guess = self.guess.clone();
-        let Self { method, chart, at_stages, x, .. } = self;
-        let guess = &mut guess;
-        let mut system =
-            InCoordinates { mechanism, chart, guess, at_stages, stage: None, at: None, found: true };
+        let Self { method, chart, guess_old, at_stages, x, .. } = self;
+        let mut system = InCoordinates::new(mechanism, (chart, &mut guess, at_stages));
+        system.start = Some(guess_old);
         method.interpolate(&mut system, t, x);
-        if chart.find_state(mechanism, t, x, guess) {
+        if system.find(t, x) {
             write_state(mechanism, y);
         } else {
             self.interpolate_smoothly(mechanism, t, y);
@@ -306,8 +321,7 @@ impl<M: OdeMethod> Stepper for InChart<M> {
         chart.take(mechanism, last.t, y_old, guess);
         chart.commit(guess);
         chart.coordinates(guess, x);
-        let mut system =
-            InCoordinates { mechanism, chart, guess, at_stages, stage: None, at: None, found: true };
+        let mut system = InCoordinates::new(mechanism, (chart, guess, at_stages));
         method.restart(&mut system, x, &[]);
     }
 

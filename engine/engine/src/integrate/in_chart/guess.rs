@@ -1,0 +1,59 @@
+//! What searches in a chart begin from.
+
+use super::tilt::Tilt;
+use nalgebra::DVector;
+use triad_dynamics::newton::Projected;
+use triad_linalg::larger;
+
+/// The state from which the search for the next one begins: the one that was found last.
+#[derive(Clone, Debug)]
+pub struct Guess {
+    /// p.
+    pub p: DVector<f64>,
+    /// ṗ.
+    pub p_dot: DVector<f64>,
+    /// η.
+    pub eta: DVector<f64>,
+    /// Where the chart was taken: p and η.
+    pub taken: (DVector<f64>, DVector<f64>),
+    /// Most iterations of a search since the chart was taken.
+    pub iterations: usize,
+    /// What searches have told of the chart here.
+    pub tilt: Tilt,
+}
+
+impl Guess {
+    /// Takes over all that another one of the same chart has found.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.p.copy_from(&other.p);
+        self.p_dot.copy_from(&other.p_dot);
+        self.eta.copy_from(&other.eta);
+        self.taken.0.copy_from(&other.taken.0);
+        self.taken.1.copy_from(&other.taken.1);
+        self.iterations = other.iterations;
+        self.tilt.copy_from(&other.tilt);
+    }
+
+    /// Is as slow as another one of the same chart.
+    pub fn share_slowness(&mut self, other: &Self) {
+        self.iterations = self.iterations.max(other.iterations);
+    }
+
+    /// Goes back to where the chart was taken: the next search must not begin where this one was lost.
+    pub fn go_back(&mut self) {
+        self.p.copy_from(&self.taken.0);
+        self.eta.copy_from(&self.taken.1);
+        self.iterations = usize::MAX;
+        self.tilt.forget();
+    }
+
+    /// Remembers how many times a search went on.
+    pub fn note(&mut self, projected: Projected) {
+        self.iterations = self.iterations.max(projected.corrections.saturating_sub(1));
+    }
+
+    /// How far its independent coordinates are from given ones.
+    pub fn distance(&self, eta: &[f64]) -> f64 {
+        self.eta.iter().zip(eta).fold(0.0, |most, (a, b)| larger(most, (a - b).abs()))
+    }
+}

@@ -1,0 +1,105 @@
+//! What runs cost at different tolerances: a looser one must not cost more.
+
+#![allow(clippy::panic, clippy::unwrap_used, reason = "a test that cannot go on says so")]
+
+use crate::common::problem;
+use triad_engine::catalogue;
+use triad_engine::run::Simulation;
+use triad_engine::scene::{ConstraintMethod, IntegratorKind, Scene};
+
+/// Tolerances, loosest first.
+const TOLERANCES: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
+/// Cost at a tolerance that a looser one may have, as a factor.
+const MORE: f64 = 1.15;
+
+/// Work of a run: evaluations, and factorizations where constraints are solved at stages.
+fn costs(scene: &Scene, tolerance: f64) -> [u64; 2] {
+    let mut scene = scene.clone();
+    scene.simulation.tolerance = tolerance;
+    scene.simulation.error_estimate = false;
+    let mut run = Simulation::new(&scene).unwrap();
+    run.advance_to(run.duration())
+        .unwrap_or_else(|error| panic!("{} at {tolerance:.0e}: {error}", scene.name));
+    let summary = run.summary();
+    let solved = summary.factorizations > summary.evaluations;
+    let costs = [summary.evaluations, if solved { summary.factorizations } else { summary.evaluations }];
+    println!(
+        "{} at {tolerance:.0e}: {costs:?}, {} steps, {} rejected",
+        scene.name, summary.steps, summary.rejected
+    );
+    costs
+}
+
+fn looser_costs_no_more(scene: &Scene, most: f64) {
+    let mut dearest = [0; 2];
+    for tolerance in TOLERANCES {
+        let now = costs(scene, tolerance);
+        for (dearest, now) in dearest.iter_mut().zip(now) {
+            let ratio = *dearest as f64 / now as f64;
+            assert!(
+                ratio < most,
+                "{} at {tolerance:.0e}: a looser tolerance takes {ratio:.2} times as much",
+                scene.name
+            );
+            *dearest = (*dearest).max(now);
+        }
+    }
+}
+
+#[test]
+fn a_looser_tolerance_costs_no_more_with_independent_coordinates() {
+    for name in ["heavy-top", "spatial-double-pendulum", "simple-pendulum", "bricard"] {
+        let mut scene = catalogue::scene(name).unwrap();
+        scene.simulation.constraint_method = ConstraintMethod::Partitioning;
+        looser_costs_no_more(&scene, MORE);
+    }
+    let mut squeezer = problem("squeezer/scene");
+    squeezer.simulation.constraint_method = ConstraintMethod::Partitioning;
+    looser_costs_no_more(&squeezer, MORE);
+}
+
+/// The top turns 48 times, and two entries of a direction serve for a quarter of a turn: about 190 charts, of a few steps each.
+#[test]
+fn a_chart_is_left_before_its_edge() {
+    let mut scene = catalogue::scene("heavy-top").unwrap();
+    scene.simulation.constraint_method = ConstraintMethod::Partitioning;
+    scene.simulation.error_estimate = false;
+    for (tolerance, steps) in [(1e-3, 1100), (1e-5, 900), (1e-6, 1000)] {
+        scene.simulation.tolerance = tolerance;
+        let mut run = Simulation::new(&scene).unwrap();
+        run.advance_to(run.duration()).unwrap();
+        let summary = run.summary();
+        assert!(summary.steps < steps, "{tolerance:.0e}: {} steps", summary.steps);
+        assert!(summary.position_violation < 1e-12, "{summary:?}");
+    }
+}
+
+#[test]
+fn a_looser_tolerance_costs_no_more_with_the_stiff_method() {
+    let mut governor = problem("governor/scene");
+    governor.simulation.integrator = IntegratorKind::Radau;
+    looser_costs_no_more(&governor, MORE);
+    for damping in ["1e3", "1e4", "1e5"] {
+        looser_costs_no_more(&damped(damping), MORE);
+    }
+}
+
+/// Three rods on hinges that are parallel to nothing, with a damper in the middle one.
+fn damped(damping: &str) -> Scene {
+    let axes = ["[0, 1, 1]", "[0.3, 1, -0.4]", "[0.1, -0.6, 1]"];
+    let bodies: Vec<_> = (0..3).map(|k| {
+        format!(r#"{{"name": "b{k}", "mass": 1, "inertia": {{"principal": [0.02, 0.09, 0.08]}}, "position": [{k}.5, 0, 0]}}"#)
+    }).collect();
+    let joints: Vec<_> = axes.iter().enumerate().map(|(k, axis)| {
+        let before = if k == 0 { "ground".to_owned() } else { format!("b{}", k - 1) };
+        format!(r#"{{"name": "h{k}", "type": "revolute", "point": [{k}, 0, 0], "axis": {axis}, "body_i": "{before}", "body_j": "b{k}"}}"#)
+    }).collect();
+    let text = format!(
+        r#"{{"name": "damper of {damping} N m s", "gravity": [0, 0, -9.81], "bodies": [{}], "joints": [{}],
+            "loads": [{{"type": "torsion", "name": "t", "joint": "h1", "damping": {damping}}}],
+            "simulation": {{"duration": 4, "integrator": "radau"}}}}"#,
+        bodies.join(","),
+        joints.join(",")
+    );
+    Scene::from_json(&text).unwrap()
+}
