@@ -45,7 +45,8 @@ fn main() -> Result<(), EngineError> {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words[..] {
         // What the process starts itself for.
-        ["run", name, tolerance, repeats] => run(name, tolerance, repeats),
+        ["run", name, tolerance, repeats] => run(name, tolerance, repeats, true),
+        ["run-without-estimate", name, tolerance, repeats] => run(name, tolerance, repeats, false),
         ["hold", name] => hold(name),
         ["start", name, repeats] => start(name, repeats),
         ["first", name, repeats] => first(name, repeats),
@@ -61,8 +62,12 @@ fn main() -> Result<(), EngineError> {
     }
 }
 
+/// A scene of the catalogue, or of a file.
 fn scene(name: &str) -> Result<Scene, EngineError> {
-    Ok(catalogue::scene(name)?)
+    match std::fs::read_to_string(name) {
+        Ok(text) => Ok(Scene::from_json(&text)?),
+        Err(_) => Ok(catalogue::scene(name)?),
+    }
 }
 
 /// Time of a step, s: the median of rounds over all sizes in turns.
@@ -166,8 +171,9 @@ fn instructions() {
 }
 
 /// Runs a scene from beginning to end, so many times.
-fn run(name: &str, tolerance: &str, repeats: &str) -> Result<(), EngineError> {
+fn run(name: &str, tolerance: &str, repeats: &str, estimate: bool) -> Result<(), EngineError> {
     let mut scene = scene(name)?;
+    scene.simulation.error_estimate = estimate;
     scene.simulation.tolerance = tolerance.parse().unwrap_or(scene.simulation.tolerance);
     let mut run = Simulation::new(&scene)?;
     for _ in 0..repeats.parse().unwrap_or(1) {
