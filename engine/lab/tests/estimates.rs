@@ -83,19 +83,37 @@ fn a_long_run_is_not_silent() {
     assert!(summary.error.is_none_or(|error| error.position > 0.01));
 }
 
-/// The estimate changes nothing of the motion.
+/// What is left out of an error that is carried along adds up with the time: of hundreds of steps it must not make another error.
+#[test]
+fn the_estimate_of_a_long_run_is_as_good() {
+    for (name, duration) in [("simple-pendulum", 150.0), ("spatial-slider-crank", 24.0)] {
+        let scene = catalogue::scene(name).unwrap().duration(duration).tolerance(1e-8);
+        let judged = judge(&scene).unwrap();
+        let good = judged.iter().filter(|one| one.is_good()).count();
+        assert!(judged.len() >= 15 && 100 * good >= 90 * judged.len(), "{name}: {good} of {judged:?}");
+    }
+}
+
+/// The estimate changes nothing of the motion, nor of what it took.
 #[test]
 fn a_run_without_it_has_the_same_bits() {
-    let taylor = ["n-four-bar:2", "bricard", "spatial-chain:5"].map(|name| (name, IntegratorKind::Taylor));
+    let built_in = ["n-four-bar:2", "bricard", "spatial-chain:5", "heavy-top", "simple-pendulum"];
+    let taylor = built_in.map(|name| catalogue::scene(name).unwrap());
+    let taylor = taylor.into_iter().chain((0..12).map(random::scene));
     let others = [IntegratorKind::Dop853, IntegratorKind::Radau, IntegratorKind::Rattle];
-    for (name, integrator) in taylor.into_iter().chain(others.map(|kind| ("spatial-double-pendulum", kind))) {
-        let scene = catalogue::scene(name).unwrap().integrator(integrator);
+    let others = others.map(|kind| catalogue::scene("spatial-double-pendulum").unwrap().integrator(kind));
+    let mut compared = 0;
+    for scene in taylor.map(|scene| scene.integrator(IntegratorKind::Taylor)).chain(others) {
+        let name = &scene.name;
         let mut without = scene.clone();
         without.simulation.error_estimate = false;
-        let [mut a, mut b] = [&scene, &without].map(|scene| Simulation::new(scene).unwrap());
+        // A driver may ask for more than drawn loops allow.
+        let [Ok(mut a), Ok(mut b)] = [&scene, &without].map(Simulation::new) else { continue };
+        compared += 1;
         for k in 1..=10 {
-            a.advance_to(0.2 * f64::from(k)).unwrap();
-            b.advance_to(0.2 * f64::from(k)).unwrap();
+            let time = 0.1 * f64::from(k) * scene.simulation.duration;
+            let outcomes = [a.advance_to(time), b.advance_to(time)].map(|outcome| outcome.is_ok());
+            assert_eq!(outcomes[0], outcomes[1], "{name}");
             let bits = |run: &Simulation| {
                 let all = run.q().iter().chain(run.q_dot());
                 all.map(|x| x.to_bits()).collect::<Vec<u64>>()
@@ -103,8 +121,11 @@ fn a_run_without_it_has_the_same_bits() {
             assert_eq!(bits(&a), bits(&b), "{name}");
         }
         let (mut a, b) = (a.summary(), b.summary());
-        assert!(a.error.is_some() && b.error.is_none());
-        (a.error, a.error_method) = (None, None);
-        assert_eq!(a, b, "{name}");
+        assert!((a.error.is_some() || a.error_unknown_from.is_some()) && b.error.is_none(), "{name}");
+        if a.error_unknown_from.is_none() {
+            (a.error, a.error_method) = (None, None);
+            assert_eq!(a, b, "{name}");
+        }
     }
+    assert!(compared >= 15, "{compared}");
 }

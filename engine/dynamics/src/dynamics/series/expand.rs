@@ -18,7 +18,15 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     #[inline(always)]
     pub fn expand(&mut self, order: usize, enough: impl Fn(&Self, usize) -> bool) -> usize {
         self.begin_expansion();
-        self.expand_from(1, order, enough)
+        let order = order.min(self.stride - 1);
+        let first = usize::from(self.recall_evaluation());
+        for n in first..=order.saturating_sub(2) {
+            self.solve_order(n);
+            if enough(self, n + 2) {
+                return n + 2;
+            }
+        }
+        order
     }
 
     /// Takes over the state as the terms of orders 0 and 1.
@@ -41,27 +49,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.counters.evaluations += 1;
     }
 
-    /// Expands further from Q_known, which is at least 1, in the same way.
-    #[inline(always)]
-    pub fn expand_from(
-        &mut self,
-        known: usize,
-        order: usize,
-        enough: impl Fn(&Self, usize) -> bool,
-    ) -> usize {
-        let order = order.min(self.stride - 1);
-        for n in known - 1..=order.saturating_sub(2) {
-            self.solve_order(n);
-            if enough(self, n + 2) {
-                return n + 2;
-            }
-        }
-        order
-    }
-
     /// Q_(n+2) and λ_n from all coefficients before them — eq. (11.2).
     #[inline(always)]
-    fn solve_order(&mut self, n: usize) {
+    pub(super) fn solve_order(&mut self, n: usize) {
         let kappa = ((n + 1) * (n + 2)) as f64;
         let over_kappa = 1.0 / kappa;
         for bundle in &mut self.bundles {
@@ -106,7 +96,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Whether values of features are needed in every order.
     #[inline(always)]
-    fn needs_values(&self) -> bool {
+    pub(super) fn needs_values(&self) -> bool {
         self.rows.curved() || !self.angles.is_empty() || !self.loads.is_empty() || !self.prescribed.is_empty()
     }
 

@@ -111,18 +111,16 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Call<'_, L, B> {
     }
 }
 
-/// Orders of the series from those that are known, likewise.
-struct Evaluate<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>, usize, usize);
+/// Accelerations, likewise.
+struct Evaluate<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>);
 
 impl<const L: usize, B: Bodies<L>> WithSimd for Evaluate<'_, L, B> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        if self.1 == 0 {
-            self.0.begin_expansion();
-        }
-        self.0.expand_from(self.1.max(1), self.2, |_, _| false);
+        self.0.begin_expansion();
+        self.0.solve_order(0);
     }
 }
 
@@ -130,17 +128,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Accelerations and multipliers at the state: builds and factors S, then order 0.
     pub fn evaluate(&mut self) {
         self.linearize();
-        self.expand_to(2);
+        self.evaluate_here();
     }
 
-    /// Expands the motion about the state, at which S must be factored, up to Q_order.
-    pub(super) fn expand_to(&mut self, order: usize) {
-        Arch::new().dispatch(Evaluate(self, 0, order));
-    }
-
-    /// The same from Q_known on, after an expansion up to there.
-    pub(super) fn expand_further(&mut self, known: usize, order: usize) {
-        Arch::new().dispatch(Evaluate(self, known, order));
+    /// The same where S is factored.
+    pub(super) fn evaluate_here(&mut self) {
+        Arch::new().dispatch(Evaluate(self));
     }
 
     /// Parts are called, not inlined: a step would otherwise contain several copies of each.

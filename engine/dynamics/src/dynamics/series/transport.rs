@@ -6,13 +6,13 @@
 
 mod differences;
 
-use super::lanes::largest;
 use super::step::Part;
 use super::{Bodies, Series};
 use crate::newton::Projectable;
 use crate::system::System;
-use differences::{Differ, find_missed, moved, moved_both, size, value};
+use differences::{Between, Differ, Missed, Size, moved, moved_both, value};
 use pulp::Arch;
+use std::mem::swap;
 use triad_linalg::larger;
 
 /// Part of the length of the mechanism beyond which an error is no longer carried: it would no longer be small.
@@ -29,9 +29,12 @@ const CONVERGES: f64 = 0.25;
 const GROWTH: f64 = 4.0;
 /// Part of the error that the last terms make from which on its series do not converge.
 const DIVERGES: f64 = 0.1;
-/// The same from which on more terms are wanted, how many more, and the fewest.
-const UNFINISHED: f64 = 3e-3;
-const MORE: usize = 2;
+/// The series of an error are long enough where two successive terms are below this part of what the last step added to it. What is
+/// left out adds up like that: more would be another error, which grows with the time as that does.
+const UNFINISHED: f64 = 0.1;
+/// Part of the error itself that is below that at any rate.
+const NEGLIGIBLE: f64 = 1e-4;
+/// The fewest terms.
 const FEWEST: usize = 3;
 
 /// The error of the motion, and how it changes within the last step.
@@ -39,34 +42,29 @@ const FEWEST: usize = 3;
 pub(super) struct Transport<const L: usize, B: Bodies<L>> {
     /// A copy that is expanded about the state without its error.
     twin: Series<L, B>,
-    /// Error of positions and velocities at the end of the last step.
+    /// Error of positions and velocities at the end of the last step, and its size there and at the start.
     error: Vec<[B::Natural; 2]>,
-    /// Coefficients of what the last step has carried, as many for each bundle as the twin keeps.
+    size: Size,
+    size_before: Size,
+    /// Coefficients of what the last step has carried, as many for each bundle as the twin keeps, and their sizes.
     carried: Vec<B::Natural>,
+    terms: Vec<f64>,
     /// What that is at the end of the step.
     arrived: Vec<[B::Natural; 2]>,
     /// The highest order of these.
     order: usize,
     /// What the last step adds to that at its end, before it is moved onto the constraints: states within the step are not.
     added: Vec<[B::Natural; 2]>,
+    /// What that is worth, m.
+    worth: f64,
     /// The order and size, s, of the last step.
     step: (usize, f64),
     /// Positions at which S was factored last, and those at which it was for the last step.
     factored: [Vec<B::Natural>; 2],
+    /// Solutions that the evaluation at the end of the step took, as long as the twin has it and the next step can begin with it.
+    evaluated: Option<u64>,
     /// When the error became too large to be carried, s.
     lost: Option<f64>,
-    kept: Kept<L, B>,
-}
-
-/// What an evaluation at the end of a step must leave as it was, and scratch.
-#[derive(Clone, Debug)]
-struct Kept<const L: usize, B: Bodies<L>> {
-    state: Vec<[B::Natural; 2]>,
-    changed: Vec<[B::Natural; 2]>,
-    first: Vec<([B::Natural; 3], B::Directors)>,
-    multipliers: Vec<f64>,
-    /// Directions across common vectors, in which their multipliers are expanded.
-    across: Vec<[[f64; 3]; 2]>,
 }
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
@@ -85,24 +83,30 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     pub(super) fn carry_over(&mut self, start: f64, h: f64, order: usize, length: f64, at_break: bool) {
         let Some(mut transport) = self.transport.take() else { return };
         if transport.lost.is_none() {
-            let counters = self.counters;
             transport.step = (order, h);
             transport.carry(self, start, length);
-            let time = self.time;
-            if at_break {
-                self.set_time(time.next_down());
-            }
-            transport.add_local(self);
-            if at_break {
-                self.set_time(time);
-            }
-            transport.project(self, length);
-            transport.lost = (!transport.is_small(h, length)).then_some(start);
+            transport.add_local(self, length, at_break);
+            transport.lost = (!transport.is_small(length)).then_some(start);
             let [last, used] = &mut transport.factored;
             used.copy_from_slice(last);
-            self.counters = counters;
         }
         self.transport = Some(transport);
+    }
+
+    /// Takes over accelerations and multipliers at the state as terms of order 0, if the error of the last step took them.
+    #[inline(always)]
+    pub(super) fn recall_evaluation(&mut self) -> bool {
+        let Some(transport) = &mut self.transport else { return false };
+        let Some(solves) = transport.evaluated.take() else { return false };
+        let twin = &transport.twin;
+        for b in 0..self.bundles.len() {
+            self.q[b * self.stride + 2] = twin.q[b * self.stride + 2];
+            self.p[b * self.stride] = twin.p[b * self.stride];
+        }
+        let rows = self.correction.len();
+        self.lambda[..rows].copy_from_slice(&twin.lambda[..rows]);
+        self.counters.solves += solves;
+        true
     }
 
     /// Writes the error of (q, q̇) a time τ after the start of the last step, if it is known.
@@ -130,25 +134,22 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         let count = series.bundles.len();
         let nothing = vec![[B::zero(); 2]; count];
         let positions: Vec<B::Natural> = series.state.iter().map(|state| state[0]).collect();
-        let kept = Kept {
-            state: nothing.clone(),
-            changed: nothing.clone(),
-            first: vec![([B::zero(); 3], B::no_directors()); count],
-            multipliers: vec![0.0; series.correction.len()],
-            across: series.rows.commons.iter().map(|common| common.expanded).collect(),
-        };
         let twin = Series { probe: None, ..series.clone() };
         Self {
             twin,
             error: nothing.clone(),
+            size: Size::default(),
+            size_before: Size::default(),
             carried: vec![B::zero(); count * series.stride],
+            terms: vec![0.0; series.stride],
             arrived: nothing.clone(),
             order: 0,
             added: nothing,
+            worth: 0.0,
             step: (0, 0.0),
             factored: [positions.clone(), positions],
+            evaluated: None,
             lost: None,
-            kept,
         }
     }
 
@@ -158,6 +159,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             self.error[b] = self.at(b, 0.0);
             self.added[b] = [B::zero(); 2];
         }
+        self.size = self.size_before;
         self.step.1 = 0.0;
         let [last, used] = &mut self.factored;
         used.copy_from_slice(last);
@@ -167,6 +169,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
     /// Whether rows that hardly hold are kept.
     pub fn set_resolving(&mut self, resolving: bool) {
         self.twin.set_resolving(resolving);
+        self.evaluated = None;
     }
 
     /// Takes note of where S is factored.
@@ -174,10 +177,11 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         for (own, state) in self.factored[0].iter_mut().zip(state) {
             *own = state[0];
         }
+        self.evaluated = None;
     }
 
-    fn is_small(&self, h: f64, length: f64) -> bool {
-        size::<L, B>(&self.error, h, length) < LOST * length
+    fn is_small(&self, length: f64) -> bool {
+        self.size.after(self.step.1, length) < LOST * length
     }
 
     /// What the last step has carried up to τ, of bundle b.
@@ -186,155 +190,136 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         value::<L, B>(&self.carried[first..=first + self.order], tau)
     }
 
-    /// Carries the error over the step: the difference of the series about x and about x − e. It needs one term fewer than in the step
-    /// before, or as many more as its last ones show: of stiff mechanisms the motion may be smooth and its error not.
+    /// Carries the error over the step: the difference of the series about x and about x − e, with as many terms as it asks for: of
+    /// stiff mechanisms the motion may be smooth and its error not.
     fn carry(&mut self, series: &Series<L, B>, start: f64, length: f64) {
-        let h = self.step.1;
-        let most = self.step.0;
-        self.order = self.order.saturating_sub(1).max(FEWEST).min(most);
-        let before = size::<L, B>(&self.error, h, length);
-        self.expand(series, start, 1.0);
-        let mut after = size::<L, B>(&self.arrived, h, length);
-        while self.order < most && (after.is_nan() || self.last_terms() > UNFINISHED * after) {
-            let known = self.order;
-            self.order = (known + MORE).min(most);
-            self.twin.expand_further(known, self.order);
-            self.differ(series, 1.0);
-            after = size::<L, B>(&self.arrived, h, length);
+        self.size_before = self.size;
+        let before = self.size.after(self.step.1, length);
+        if self.twin.time.to_bits() != start.to_bits() {
+            self.twin.set_time(start);
         }
+        self.place(series, 1.0);
+        self.twin.linearize();
+        let after = self.differ(series, 1.0, length);
         let grows = after.is_nan() || after > GROWTH * before.max(NEAR * length);
         if grows && before > DISTURBANCE * length && (self.last_terms() > DIVERGES * after || after.is_nan())
         {
-            self.expand(series, start, DISTURBANCE * length / before);
+            self.carry_part(series, DISTURBANCE * length / before, length);
         }
+    }
+
+    /// Carries a part of the error. The whole error sees that S is not factored exactly at x; for a part of it S is disturbed likewise,
+    /// and that effect stays out.
+    fn carry_part(&mut self, series: &Series<L, B>, s: f64, length: f64) {
+        let Self { twin, error, .. } = self;
+        for ((state, error), factored) in twin.state.iter_mut().zip(&*error).zip(&self.factored[1]) {
+            state[0] = moved::<L, B>(factored, -s, &error[0]);
+        }
+        twin.linearize();
+        self.place(series, s);
+        self.twin.call(Part::Settle);
+        self.differ(series, s, length);
     }
 
     /// Size of the last two terms of what is carried, at the end of the step.
     fn last_terms(&self) -> f64 {
-        let power = |k: usize| (0..k).fold(1.0, |power, _| power * self.step.1);
-        let term = |k: usize| {
-            let all = self.carried.iter().skip(k).step_by(self.twin.stride);
-            power(k) * all.map(|c| largest(B::lanes(c))).fold(0.0, larger)
-        };
-        term(self.order).max(term(self.order - 1))
+        let power = (1..self.order).fold(1.0, |power, _| power * self.step.1);
+        power * larger(self.step.1 * self.terms[self.order], self.terms[self.order - 1])
     }
 
-    /// Expands the motion about x − s e and takes the s-th part of the difference. The whole error (s = 1) sees that S is not
-    /// factored exactly at x; for a part of it S is disturbed likewise, and that effect stays out.
-    fn expand(&mut self, series: &Series<L, B>, start: f64, s: f64) {
+    /// Puts the twin at x − s e, at the start of the step.
+    fn place(&mut self, series: &Series<L, B>, s: f64) {
         let Self { twin, error, .. } = self;
         let stride = twin.stride;
-        twin.set_time(start);
         for (own, angle) in twin.angles.list.iter_mut().zip(&series.angles.list) {
             own.state.reference = angle.theta[0];
-        }
-        let whole = s >= 1.0;
-        if !whole {
-            for ((state, error), factored) in twin.state.iter_mut().zip(&*error).zip(&self.factored[1]) {
-                state[0] = moved::<L, B>(factored, -s, &error[0]);
-            }
-            twin.linearize();
         }
         for (b, (state, error)) in twin.state.iter_mut().zip(&*error).enumerate() {
             *state = moved_both::<L, B>(&[series.q[b * stride], series.q[b * stride + 1]], -s, error);
         }
-        if whole {
-            twin.linearize();
-        } else {
-            twin.call(Part::Settle);
-        }
-        twin.expand_to(self.order);
-        self.differ(series, s);
     }
 
-    /// The s-th part of the difference of the series.
-    fn differ(&mut self, series: &Series<L, B>, s: f64) {
-        let (order, h) = (self.order, self.step.1);
-        let Self { twin, carried, arrived, .. } = self;
-        let stride = twin.stride;
-        Arch::new().dispatch(Differ::<L, B> {
-            of: [&series.q, &twin.q],
-            stride,
-            order,
-            s,
-            h,
-            carried,
+    /// Expands the twin where it is, and takes the s-th part of the difference of the series. Returns what it is worth at the end of the
+    /// step. It is looked at from one order less on than in the step before.
+    fn differ(&mut self, series: &Series<L, B>, s: f64, length: f64) -> f64 {
+        let (most, h) = self.step;
+        let Self { twin, carried, arrived, terms, order, .. } = self;
+        let fewest = order.saturating_sub(1).max(FEWEST).min(most);
+        let orders = [fewest, most];
+        let enough = [UNFINISHED * self.worth, NEGLIGIBLE];
+        let differ =
+            Differ::<L, B> { of: &series.q, twin, orders, s, h, length, enough, carried, terms, arrived };
+        let after;
+        (*order, after) = Arch::new().dispatch(differ);
+        after
+    }
+
+    /// Finds the error that the step itself makes, and makes the error at its end one that the constraints allow. With terms up to order
+    /// p, the accelerations there are off by p (p + 1) / h² times the error of the positions. At a breakpoint of a prescribed function
+    /// accelerations jump: those before it tell of the step.
+    fn add_local(&mut self, series: &mut Series<L, B>, length: f64, at_break: bool) {
+        self.share(series);
+        let twin = &mut self.twin;
+        twin.set_time(if at_break { series.time.next_down() } else { series.time });
+        for (own, angle) in twin.angles.list.iter_mut().zip(&series.angles.list) {
+            own.state.reference = angle.state.reference;
+        }
+        twin.state.copy_from_slice(&series.state);
+        let solves = twin.counters.solves;
+        twin.evaluate_here();
+        // Rows that are not linear, and loads, keep more of it than that.
+        self.evaluated = (!at_break && !twin.needs_values()).then_some(twin.counters.solves - solves);
+        let (step, arrived) = (self.step, &self.arrived);
+        let missed = Missed::<L, B> {
+            series: &series.q,
+            twin,
+            step,
             arrived,
-        });
+            added: &mut self.added,
+            error: &mut self.error,
+        };
+        let [size, added] = Arch::new().dispatch(missed);
+        self.worth = added.after(step.1, length);
+        if at_break {
+            self.twin.set_time(series.time);
+        }
+        self.project(series, size.after(step.1, length), length);
+        self.share(series);
     }
 
-    /// Finds the error that the step itself makes: with terms up to order p, the accelerations at its end are off by
-    /// p (p + 1) / h² times the error of the positions.
-    fn add_local(&mut self, series: &mut Series<L, B>) {
-        let (order, h) = self.step;
-        let p = order as f64;
-        let stride = series.stride;
-        find_missed::<L, B>(&series.q, stride, (order, h), &mut self.added);
-        self.keep(series);
-        series.expand_to(2);
-        for (b, added) in self.added.iter_mut().enumerate() {
-            let missed = moved::<L, B>(&added[0], -2.0, &series.q[b * stride + 2]);
-            *added = [h * h / (p * (p + 1.0)), h / p].map(|s| moved::<L, B>(&B::zero(), s, &missed));
-        }
-        self.restore(series);
-    }
-
-    /// Keeps what an evaluation at the end of a step writes over.
-    fn keep(&mut self, series: &Series<L, B>) {
-        for (b, kept) in self.kept.first.iter_mut().enumerate() {
-            let at = b * series.stride;
-            *kept = ([series.q[at], series.q[at + 1], series.q[at + 2]], series.p[at]);
-        }
-        let rows = self.kept.multipliers.len();
-        self.kept.multipliers.copy_from_slice(&series.lambda[..rows]);
-        for (kept, common) in self.kept.across.iter_mut().zip(&series.rows.commons) {
-            *kept = common.expanded;
+    /// Lends the twin what belongs to the end of the step, or gives it back.
+    fn share(&mut self, series: &mut Series<L, B>) {
+        let twin = &mut self.twin;
+        swap(&mut twin.bundles, &mut series.bundles);
+        swap(&mut twin.schur, &mut series.schur);
+        swap(&mut twin.regularized, &mut series.regularized);
+        for (own, common) in twin.rows.commons.iter_mut().zip(&mut series.rows.commons) {
+            swap(&mut own.across, &mut common.across);
         }
     }
 
-    fn restore(&self, series: &mut Series<L, B>) {
-        for (b, (q, p)) in self.kept.first.iter().enumerate() {
-            let at = b * series.stride;
-            series.q[at..at + 3].copy_from_slice(q);
-            series.p[at] = *p;
-        }
-        series.lambda[..self.kept.multipliers.len()].copy_from_slice(&self.kept.multipliers);
-        for (common, kept) in series.rows.commons.iter_mut().zip(&self.kept.across) {
-            common.expanded = *kept;
-        }
-    }
-
-    /// Makes the error at the end of the step one that the constraints allow: x − e is moved onto them.
-    fn project(&mut self, series: &mut Series<L, B>, length: f64) {
-        let h = self.step.1;
-        for ((error, arrived), added) in self.error.iter_mut().zip(&self.arrived).zip(&self.added) {
-            *error = moved_both::<L, B>(arrived, 1.0, added);
-        }
-        let whole = size::<L, B>(&self.error, h, length);
-        self.kept.state.copy_from_slice(&series.state);
+    /// Moves x − e onto the constraints, where e is worth `whole`.
+    fn project(&mut self, series: &Series<L, B>, whole: f64, length: f64) {
         let mut s = 1.0;
         let negligible = (LEFT_OVER * whole * length).sqrt().max(NEAR * length);
         if !self.close(series, s, negligible) && DISTURBANCE * length < whole {
             s = DISTURBANCE * length / whole;
             self.close(series, s, NEAR * length);
         }
-        series.call(Part::Correct(1));
-        self.kept.changed.copy_from_slice(&series.state);
-        series.state.copy_from_slice(&self.kept.state);
-        series.call(Part::Settle);
-        for (b, (here, there)) in self.kept.state.iter().zip(&self.kept.changed).enumerate() {
-            let difference = moved_both::<L, B>(here, -1.0, there);
-            self.error[b] = moved_both::<L, B>(&[B::zero(); 2], 1.0 / s, &difference);
-        }
+        self.twin.call(Part::Correct(1));
+        let Self { twin, error, .. } = self;
+        self.size =
+            Arch::new().dispatch(Between::<L, B> { here: &series.state, there: &twin.state, s, out: error });
     }
 
     /// Moves to x − s e and corrects the positions there. Returns whether Newton's method converges, or need not: a correction is
     /// negligible, m.
-    fn close(&self, series: &mut Series<L, B>, s: f64, negligible: f64) -> bool {
-        for ((state, here), error) in series.state.iter_mut().zip(&self.kept.state).zip(&self.error) {
+    fn close(&mut self, series: &Series<L, B>, s: f64, negligible: f64) -> bool {
+        let Self { twin, error, .. } = self;
+        for ((state, here), error) in twin.state.iter_mut().zip(&series.state).zip(&*error) {
             *state = moved_both::<L, B>(here, -s, error);
         }
-        let first = series.call(Part::Correct(0));
-        first < negligible || series.call(Part::Correct(0)) < CONVERGES * first
+        let first = twin.call(Part::Correct(0));
+        first < negligible || twin.call(Part::Correct(0)) < CONVERGES * first
     }
 }

@@ -1,9 +1,9 @@
 //! Sums and differences of states and of their series, compiled for each set of vector instructions.
 
-use crate::dynamics::series::Bodies;
 use crate::dynamics::series::lanes::{largest, plus};
-use pulp::{Arch, Simd, WithSimd};
-use triad_linalg::larger;
+use crate::dynamics::series::{Bodies, Series};
+use pulp::{Simd, WithSimd};
+use triad_linalg::{fma, larger};
 
 /// x + s y.
 #[inline(always)]
@@ -16,6 +16,7 @@ pub(super) fn moved<const L: usize, B: Bodies<L>>(x: &B::Natural, s: f64, y: &B:
 }
 
 /// The same for positions and velocities.
+#[inline(always)]
 pub(super) fn moved_both<const L: usize, B: Bodies<L>>(
     x: &[B::Natural; 2],
     s: f64,
@@ -34,105 +35,185 @@ pub(super) fn value<const L: usize, B: Bodies<L>>(coefficients: &[B::Natural], t
         .fold(nothing, |[x, v], c| [moved::<L, B>(c, tau, &x), moved::<L, B>(&x, tau, &v)])
 }
 
-/// The s-th part of the difference of two series, and its value after h, to be compiled for each set of vector instructions.
+/// Size of an error: of positions, m, directors, and their rates, each the largest component of all bodies.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Size([f64; 4]);
+
+impl Size {
+    /// What it makes of positions in a time h in a mechanism of this length, m. Not a number if it is none.
+    #[inline(always)]
+    pub fn after(self, h: f64, length: f64) -> f64 {
+        let [position, turn, velocity, spin] = self.0;
+        larger(position, length * turn) + h * larger(velocity, length * spin)
+    }
+
+    #[inline(always)]
+    fn raise<const L: usize, B: Bodies<L>>(&mut self, error: &[B::Natural; 2]) {
+        for (k, x) in error.iter().enumerate() {
+            let (position, directors) = B::lanes(x).split_at(B::DIRECTIONS);
+            self.0[2 * k] = larger(self.0[2 * k], largest(position));
+            self.0[2 * k + 1] = larger(self.0[2 * k + 1], largest(directors));
+        }
+    }
+
+    /// The same, or no numbers if a component of the error is none.
+    #[inline(always)]
+    fn proven<const L: usize, B: Bodies<L>>(self, error: &[[B::Natural; 2]]) -> Self {
+        // Zero times infinity or NaN is NaN.
+        let mut zeros = [0.0; L];
+        for lane in error.as_flattened().iter().flat_map(|x| B::lanes(x)) {
+            zeros = plus(&[0.0; L], lane, &zeros);
+        }
+        if zeros.iter().sum::<f64>() == 0.0 { self } else { Self([f64::NAN; 4]) }
+    }
+}
+
+/// The s-th part of the difference of a series and that of its twin, which is expanded as far as the difference asks for, to be compiled
+/// for each set of vector instructions. The order that was reached, and what the difference is worth after h, are returned.
 pub(super) struct Differ<'a, const L: usize, B: Bodies<L>> {
-    pub of: [&'a [B::Natural]; 2],
-    pub stride: usize,
-    pub order: usize,
+    pub of: &'a [B::Natural],
+    pub twin: &'a mut Series<L, B>,
+    /// The first at which it is looked at, and the most.
+    pub orders: [usize; 2],
     pub s: f64,
     pub h: f64,
+    pub length: f64,
+    /// What two successive terms are the last below: so much, or so large a part of all.
+    pub enough: [f64; 2],
+    /// The difference, its terms' sizes, and its value and rate after h.
     pub carried: &'a mut [B::Natural],
+    pub terms: &'a mut [f64],
     pub arrived: &'a mut [[B::Natural; 2]],
 }
 
 impl<const L: usize, B: Bodies<L>> WithSimd for Differ<'_, L, B> {
-    type Output = ();
+    type Output = (usize, f64);
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { of: [here, there], stride, order, s, h, carried, arrived } = self;
-        for (b, arrived) in arrived.iter_mut().enumerate() {
-            let range = b * stride..=b * stride + order;
-            let carried = &mut carried[range.clone()];
-            for ((carried, here), there) in carried.iter_mut().zip(&here[range.clone()]).zip(&there[range]) {
-                let difference = moved::<L, B>(here, -1.0, there);
-                *carried = if s < 1.0 { moved::<L, B>(&B::zero(), 1.0 / s, &difference) } else { difference };
+    fn with_simd<S: Simd>(mut self, _: S) -> (usize, f64) {
+        let ([fewest, most], h) = (self.orders, self.h);
+        self.twin.begin_expansion();
+        let mut power = 1.0;
+        for k in 0..=most {
+            if k >= 2 {
+                self.twin.solve_order(k - 2);
+                power *= h;
             }
-            *arrived = value::<L, B>(carried, h);
+            self.add(k, power);
+            let last = power * larger(h * self.terms[k], self.terms[k.saturating_sub(1)]);
+            if k == most || k >= fewest && (last <= self.enough[0] || last <= self.enough[1] * self.after()) {
+                return (k, self.after());
+            }
         }
+        (most, f64::NAN)
     }
 }
 
-/// Second derivatives of the series of all bodies at the end of a step, to be compiled likewise.
-struct Missed<'a, const L: usize, B: Bodies<L>> {
-    series: &'a [B::Natural],
-    stride: usize,
-    step: (usize, f64),
-    out: &'a mut [[B::Natural; 2]],
+impl<const L: usize, B: Bodies<L>> Differ<'_, L, B> {
+    /// What all terms so far are worth at the end of the step.
+    #[inline(always)]
+    fn after(&self) -> f64 {
+        let mut size = Size::default();
+        self.arrived.iter().for_each(|both| size.raise::<L, B>(both));
+        size.proven::<L, B>(self.arrived).after(self.h, self.length)
+    }
+
+    /// Adds the term of order k, given h to the power of k − 1.
+    #[inline(always)]
+    fn add(&mut self, k: usize, power: f64) {
+        let stride = self.twin.stride;
+        let by = if k == 0 { [1.0, 0.0] } else { [self.h * power, k as f64 * power] };
+        let mut term = 0.0;
+        for (b, arrived) in self.arrived.iter_mut().enumerate() {
+            let at = b * stride + k;
+            let (here, there) = (B::lanes(&self.of[at]), B::lanes(&self.twin.q[at]));
+            let carried = B::lanes_mut(&mut self.carried[at]);
+            for ((out, here), there) in carried.iter_mut().zip(here).zip(there) {
+                for l in 0..L {
+                    out[l] = here[l] - there[l];
+                    if self.s < 1.0 {
+                        out[l] /= self.s;
+                    }
+                }
+            }
+            term = larger(term, largest(carried));
+            for (sum, by) in arrived.iter_mut().zip(by) {
+                for (sum, c) in B::lanes_mut(sum).iter_mut().zip(&*carried) {
+                    for l in 0..L {
+                        sum[l] = if k == 0 { by * c[l] } else { fma(by, c[l], sum[l]) };
+                    }
+                }
+            }
+        }
+        self.terms[k] = term;
+    }
+}
+
+/// What a step adds to an error and what that is in all, at its end, to be compiled likewise: eq. (11.11), from the second derivative
+/// of the series there, and that of the equations, which the twin has. The sizes of both, the whole first, are
+/// returned.
+pub(super) struct Missed<'a, const L: usize, B: Bodies<L>> {
+    pub series: &'a [B::Natural],
+    pub twin: &'a Series<L, B>,
+    /// Its order and size.
+    pub step: (usize, f64),
+    pub arrived: &'a [[B::Natural; 2]],
+    pub added: &'a mut [[B::Natural; 2]],
+    pub error: &'a mut [[B::Natural; 2]],
 }
 
 impl<const L: usize, B: Bodies<L>> WithSimd for Missed<'_, L, B> {
-    type Output = ();
+    type Output = [Size; 2];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { series, stride, step: (order, h), out } = self;
-        for (b, out) in out.iter_mut().enumerate() {
-            let coefficients = &series[b * stride..=b * stride + order];
+    fn with_simd<S: Simd>(self, _: S) -> [Size; 2] {
+        let Self { series, twin, step: (order, h), arrived, added, error } = self;
+        let p = order as f64;
+        let by = [h * h / (p * (p + 1.0)), h / p];
+        let mut sizes = [Size::default(); 2];
+        for (b, added) in added.iter_mut().enumerate() {
+            let first = b * twin.stride;
             let mut second = B::zero();
             for k in (2..=order).rev() {
-                let c = moved::<L, B>(&B::zero(), (k * (k - 1)) as f64, &coefficients[k]);
-                second = moved::<L, B>(&c, h, &second);
+                let factor = (k * (k - 1)) as f64;
+                let c = B::lanes(&series[first + k]);
+                for (second, c) in B::lanes_mut(&mut second).iter_mut().zip(c) {
+                    for l in 0..L {
+                        second[l] = fma(h, second[l], factor * c[l]);
+                    }
+                }
             }
-            out[0] = second;
+            let missed = moved::<L, B>(&second, -2.0, &twin.q[first + 2]);
+            *added = by.map(|by| moved::<L, B>(&B::zero(), by, &missed));
+            error[b] = moved_both::<L, B>(&arrived[b], 1.0, added);
+            sizes[0].raise::<L, B>(&error[b]);
+            sizes[1].raise::<L, B>(added);
         }
+        [sizes[0].proven::<L, B>(error), sizes[1]]
     }
 }
 
-/// Writes the second derivative of the series of each body at the end of a step, of which order and size are given, to the first of
-/// each pair.
-pub(super) fn find_missed<const L: usize, B: Bodies<L>>(
-    series: &[B::Natural],
-    stride: usize,
-    step: (usize, f64),
-    missed: &mut [[B::Natural; 2]],
-) {
-    Arch::new().dispatch(Missed::<L, B> { series, stride, step, out: missed });
+/// The s-th part of what lies between two states, to be compiled likewise. Its size is returned.
+pub(super) struct Between<'a, const L: usize, B: Bodies<L>> {
+    pub here: &'a [[B::Natural; 2]],
+    pub there: &'a [[B::Natural; 2]],
+    pub s: f64,
+    pub out: &'a mut [[B::Natural; 2]],
 }
 
-/// The size of an error, to be compiled likewise.
-struct Size<'a, const L: usize, B: Bodies<L>> {
-    error: &'a [[B::Natural; 2]],
-    h: f64,
-    length: f64,
-}
-
-impl<const L: usize, B: Bodies<L>> WithSimd for Size<'_, L, B> {
-    type Output = f64;
+impl<const L: usize, B: Bodies<L>> WithSimd for Between<'_, L, B> {
+    type Output = Size;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> f64 {
-        let Self { error, h, length } = self;
-        // Zero times infinity or NaN is NaN.
-        let mut zeros = [0.0; L];
-        let mut most = 0.0;
-        for [x, v] in error {
-            let mut sizes = [0.0; 2];
-            for (size, x) in sizes.iter_mut().zip([x, v]) {
-                for lane in B::lanes(x) {
-                    zeros = plus(&[0.0; L], lane, &zeros);
-                }
-                let (position, directors) = B::lanes(x).split_at(B::DIRECTIONS);
-                *size = larger(largest(position), length * largest(directors));
+    fn with_simd<S: Simd>(self, _: S) -> Size {
+        let mut size = Size::default();
+        for ((out, here), there) in self.out.iter_mut().zip(self.here).zip(self.there) {
+            *out = moved_both::<L, B>(here, -1.0, there);
+            if self.s < 1.0 {
+                *out = moved_both::<L, B>(&[B::zero(); 2], 1.0 / self.s, out);
             }
-            most = larger(most, sizes[0] + h * sizes[1]);
+            size.raise::<L, B>(out);
         }
-        if zeros.iter().sum::<f64>() == 0.0 { most } else { f64::NAN }
+        size.proven::<L, B>(self.out)
     }
-}
-
-/// Size of an error, m: of positions, of directors for a mechanism of this length, and of what their rates make in a time h.
-/// Not a number if any of its components is none.
-pub(super) fn size<const L: usize, B: Bodies<L>>(error: &[[B::Natural; 2]], h: f64, length: f64) -> f64 {
-    Arch::new().dispatch(Size::<L, B> { error, h, length })
 }
