@@ -12,9 +12,12 @@
 mod kernel;
 mod numeric;
 mod order;
+mod runs;
+mod solve;
 mod wide;
 
 use order::minimum_degree;
+use runs::Run;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -29,9 +32,12 @@ pub struct BlockSlot {
 
 #[derive(Clone, Debug)]
 struct Pivot {
+    block: usize,
     size: usize,
     /// First scalar row.
     start: usize,
+    /// Its first number in the order of elimination.
+    place: usize,
     diagonal: usize,
     beside: Range<usize>,
     updates: Range<usize>,
@@ -44,8 +50,8 @@ struct Pivot {
 struct Beside {
     block: usize,
     columns: usize,
-    /// First scalar column.
-    start: usize,
+    /// First number of its columns in the order of elimination.
+    place: usize,
     offset: usize,
 }
 
@@ -70,9 +76,11 @@ pub struct BlockCholesky {
     pivots: Vec<Pivot>,
     beside: Vec<Beside>,
     updates: Vec<Update>,
+    /// All pivots that have rows, in runs of such that are alike.
+    runs: Vec<Run>,
     /// Place of each block in the elimination order.
     rank: Vec<usize>,
-    /// The entries of S; the factorization overwrites them.
+    /// The entries of S; the factorization overwrites them, at last by the transposes of the blocks of U in runs.
     values: Vec<f64>,
     /// D⁻¹ on the diagonal, blocks of U beside it.
     factors: Vec<f64>,
@@ -86,6 +94,9 @@ pub struct BlockCholesky {
     scratch: Vec<f64>,
     /// Scalar rows that are left out.
     rows_left_out: Vec<usize>,
+    /// Where scalar rows stand in the order of elimination, and room for so many numbers.
+    places: Vec<usize>,
+    placed: Vec<f64>,
     /// Products of the relative pivots of each block, if they are kept.
     pivot_products: Option<Vec<f64>>,
 }
@@ -132,6 +143,7 @@ impl BlockCholesky {
             pivots: Vec::with_capacity(count),
             beside: Vec::new(),
             updates: Vec::new(),
+            runs: Vec::new(),
             rank,
             values: Vec::new(),
             factors: Vec::new(),
@@ -140,33 +152,45 @@ impl BlockCholesky {
             relative: vec![0.0; sizes.iter().sum()],
             scratch: vec![0.0; sizes.iter().map(|size| size * size).max().unwrap_or(0)],
             rows_left_out: Vec::new(),
+            places: vec![0; sizes.iter().sum()],
+            placed: vec![0.0; sizes.iter().map(|&size| stride(size)).sum()],
             pivot_products: None,
         };
         factor.lay_out(sizes, &start, &order, &fill);
         factor.write_updates();
+        factor.runs = runs::find(&factor.pivots, &factor.beside);
         factor
     }
 
     fn lay_out(&mut self, sizes: &[usize], start: &[usize], order: &[usize], fill: &[Vec<usize>]) {
+        let mut first = vec![0; sizes.len()];
         let mut next = 0;
+        for &block in order {
+            first[block] = next;
+            next += stride(sizes[block]);
+        }
+        next = 0;
         for (&block, neighbours) in order.iter().zip(fill) {
-            let size = sizes[block];
+            let (size, place) = (sizes[block], first[block]);
             let diagonal = next;
             for i in 0..size {
                 self.diagonal_at[start[block] + i] = diagonal + i * (stride(size) + 1);
+                self.places[start[block] + i] = place + i;
             }
             next += size * stride(size);
-            let first = self.beside.len();
+            let beside = self.beside.len();
             let mut columns: Vec<usize> = neighbours.clone();
             columns.sort_by_key(|&i| self.rank[i]);
             for i in columns {
-                self.beside.push(Beside { block: i, columns: sizes[i], start: start[i], offset: next });
+                self.beside.push(Beside { block: i, columns: sizes[i], place: first[i], offset: next });
                 next += size * stride(sizes[i]);
             }
-            let beside = first..self.beside.len();
+            let beside = beside..self.beside.len();
             self.pivots.push(Pivot {
+                block,
                 size,
                 start: start[block],
+                place,
                 diagonal,
                 beside,
                 updates: 0..0,
@@ -215,6 +239,16 @@ impl BlockCholesky {
         let transposed = self.rank[i] > self.rank[j];
         let (earlier, later) = if transposed { (j, i) } else { (i, j) };
         BlockSlot { offset: self.offset(earlier, later), transposed }
+    }
+
+    /// Where the numbers of scalar rows stand in right-hand sides and solutions: in the order of elimination.
+    pub fn places(&self) -> &[usize] {
+        &self.places
+    }
+
+    /// How many numbers a right-hand side has: more than there are rows, as those of joints with three fill a vector of four.
+    pub fn numbers(&self) -> usize {
+        self.placed.len()
     }
 
     /// Sets all entries to zero.
@@ -288,34 +322,35 @@ impl BlockCholesky {
     /// Which blocks take part where a row of `block` nearly depends on others: raises the share of each block to the largest
     /// |xᵢ| √Sᵢᵢ of its rows, relative to the largest of all, x = S⁻¹ e and e the row of the block with the smallest pivot. The
     /// factorization must be one without regularization.
-    pub fn raise_shares(&self, block: usize, x: &mut [f64], shares: &mut [f64]) {
+    pub fn raise_shares(&mut self, block: usize, shares: &mut [f64]) {
         let Pivot { size, start, .. } = self.pivots[self.rank[block]];
         let weakest = (start..start + size).min_by(|a, b| self.relative[*a].total_cmp(&self.relative[*b]));
         let Some(weakest) = weakest else { return };
+        let mut x = std::mem::take(&mut self.placed);
         x.fill(0.0);
-        x[weakest] = 1.0;
-        self.solve(x);
+        x[self.places[weakest]] = 1.0;
+        self.solve_in_place(&mut x);
         let part = |row: usize| {
             let diagonal = self.diagonal[row];
-            if diagonal.is_finite() { x[row].abs() * diagonal.sqrt() } else { 0.0 }
+            if diagonal.is_finite() { x[self.places[row]].abs() * diagonal.sqrt() } else { 0.0 }
         };
-        let most = (0..x.len()).map(part).fold(f64::MIN_POSITIVE, f64::max);
+        let most = (0..self.places.len()).map(part).fold(f64::MIN_POSITIVE, f64::max);
         for (share, &place) in shares.iter_mut().zip(&self.rank) {
             let Pivot { size, start, .. } = self.pivots[place];
             *share = (start..start + size).map(|row| part(row) / most).fold(*share, f64::max);
         }
+        self.placed = x;
     }
 
-    fn find_pivot_products(&mut self) {
-        let Self { pivot_products: Some(products), pivots, rank, relative, rows_left_out, .. } = self else {
+    /// Takes rows that are left out of other factorizations out of the pivot products of one that has them.
+    fn forget_rows_left_out(&mut self) {
+        let Self { pivot_products: Some(products), pivots, relative, rows_left_out, .. } = self else {
             return;
         };
-        for (product, &place) in products.iter_mut().zip(&*rank) {
-            let Pivot { size, start, .. } = pivots[place];
-            let counts =
-                |row: &usize| relative[*row].is_finite() && rows_left_out.binary_search(row).is_err();
-            *product =
-                (start..start + size).filter(counts).map(|row| relative[row]).fold(1.0, f64::min).max(0.0);
+        for &Pivot { block, size, start, .. } in &*pivots {
+            let counts = |row: &usize| rows_left_out.binary_search(row).is_err();
+            let rows = (start..start + size).filter(counts).map(|row| relative[row]);
+            products[block] = rows.fold(1.0, f64::min).max(0.0);
         }
     }
 }

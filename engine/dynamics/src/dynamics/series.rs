@@ -84,7 +84,7 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     /// Coefficients of the power of drivers and of loads without potential, if there are any.
     power: Vec<f64>,
     schur: Schur,
-    /// Coefficients of λ, order by order.
+    /// Coefficients of λ, order by order; in each, solver rows stand where the factor has them.
     lambda: Vec<f64>,
     correction: Vec<f64>,
     /// Whether rows that depend on others at every state are left out.
@@ -103,7 +103,7 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     probe: Option<Box<Self>>,
     /// The error that is carried along.
     transport: Option<Box<transport::Transport<L, B>>>,
-    /// What Φ of each solver row is measured in, where it is measured.
+    /// What Φ of each solver row is measured in, where it is measured, in the same order.
     row_sizes: Vec<f64>,
 }
 
@@ -138,9 +138,10 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let stride = order + 1;
         let all = moving + ground.len();
         slots.shrink_to_fit();
-        let rows = Rows::new(system, &place, nowhere, stride);
-        let angles = Angles::new(system, &place, stride, turns);
-        let prescribed = Prescribed::new(system, &place, L, stride);
+        let schur = Schur::new(system, &place, L, B::TWIST);
+        let rows = Rows::new(system, &place, nowhere, &schur.factor, stride);
+        let angles = Angles::new(system, &place, &schur.factor, stride, turns);
+        let prescribed = Prescribed::new(system, &place, &schur.factor, L, stride);
         let loads = Loads::new(system, &place, L, stride);
         let exchanges = !system.is_conservative();
         Self {
@@ -161,9 +162,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             forces: vec![[[0.0; L]; 3]; all],
             ground,
             rows,
-            schur: Schur::new(system, &place, L, B::TWIST),
-            lambda: vec![0.0; system.solver_rows * stride],
-            correction: vec![0.0; system.solver_rows],
+            lambda: vec![0.0; schur.factor.numbers() * stride],
+            correction: vec![0.0; schur.factor.numbers()],
+            schur,
             rows_left_out: false,
             redundant: false,
             regularized: false,

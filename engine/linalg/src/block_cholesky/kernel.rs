@@ -167,29 +167,30 @@ pub fn update<const N: usize, const W: usize>(
     }
 }
 
-/// target −= Uᵀ y for a block as wide as it is high.
+/// Uᵀ of a block as wide as it is high.
 #[inline(always)]
-pub fn forward<const N: usize, const W: usize>(scaled: &[[f64; W]; N], y: &[f64; N], target: &mut [f64; N]) {
-    let known = row_times(y, scaled);
+pub fn turn<const N: usize, const W: usize>(scaled: &[[f64; W]; N], out: &mut [[f64; W]; N]) {
     for i in 0..N {
-        target[i] -= known[i];
+        for p in 0..N {
+            out[i][p] = scaled[p][i];
+        }
     }
 }
 
-/// x −= U source for a block as wide as it is high.
+/// target −= Uᵀ y for a block as wide as it is high.
 #[inline(always)]
-pub fn backward<const N: usize, const W: usize>(scaled: &[[f64; W]; N], source: &[f64; N], x: &mut [f64; N]) {
+pub fn subtract<const N: usize, const W: usize>(scaled: &[[f64; W]; N], y: &[f64; W], target: &mut [f64; W]) {
     for p in 0..N {
-        for k in 0..N {
-            x[p] = fma(-scaled[p][k], source[k], x[p]);
+        for c in 0..W {
+            target[c] = fma(-y[p], scaled[p][c], target[c]);
         }
     }
 }
 
 /// M x for a symmetric matrix.
 #[inline(always)]
-pub fn multiply<const N: usize, const W: usize>(matrix: &[[f64; W]; N], x: &[f64; N]) -> [f64; N] {
-    let mut product = [0.0; N];
-    product.copy_from_slice(&row_times(x, matrix)[..N]);
-    product
+pub fn multiply<const N: usize, const W: usize>(matrix: &[[f64; W]; N], x: &[f64; W]) -> [f64; W] {
+    let mut factors = [0.0; N];
+    factors.copy_from_slice(&x[..N]);
+    row_times(&factors, matrix)
 }

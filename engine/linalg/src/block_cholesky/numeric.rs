@@ -1,27 +1,15 @@
-//! Factorization and solution: the program of block operations, run on the processor's vector instructions.
+//! Factorization: the program of block operations, run on the processor's vector instructions.
 
+use super::runs::{Alike, Run, by_kind, by_size};
 use super::{BlockCholesky, Pivot, kernel, stride, wide};
 use pulp::{Arch, Simd, WithSimd};
-
-/// Runs `$call` with the constant `$n` equal to a block's size and `$w` to its stride, or `$wide` for blocks wider than
-/// those of joints.
-macro_rules! by_size {
-    ($size:expr, $n:ident, $w:ident => $call:expr, $wide:expr) => {
-        by_size!(@ $size, $n, $w => $call, $wide; 1 2 3 4 5 6)
-    };
-    (@ $size:expr, $n:ident, $w:ident => $call:expr, $wide:expr; $($value:literal)*) => {
-        match $size {
-            0 => {}
-            $($value => { const $n: usize = $value; const $w: usize = stride($value); $call })*
-            _ => $wide,
-        }
-    };
-}
+use std::ops::Range;
 
 struct Factor<'a> {
     matrix: &'a mut BlockCholesky,
     epsilon: f64,
     skip: f64,
+    leaves_out: bool,
 }
 
 impl WithSimd for Factor<'_> {
@@ -29,21 +17,7 @@ impl WithSimd for Factor<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> f64 {
-        self.matrix.factor_here(self.epsilon, self.skip)
-    }
-}
-
-struct Solve<'a> {
-    matrix: &'a BlockCholesky,
-    x: &'a mut [f64],
-}
-
-impl WithSimd for Solve<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        self.matrix.solve_here(self.x);
+        self.matrix.factor_here(self.epsilon, self.skip, self.leaves_out)
     }
 }
 
@@ -54,18 +28,16 @@ impl BlockCholesky {
     /// A pivot that is not larger than `skip` times the diagonal entry of S is replaced by infinity, which drops
     /// its row.
     pub fn factor(&mut self, epsilon: f64, skip: f64) -> f64 {
-        let smallest = Arch::new().dispatch(Factor { matrix: &mut *self, epsilon, skip });
-        self.find_pivot_products();
+        let leaves_out = epsilon == 0.0 && skip == 0.0;
+        let smallest = Arch::new().dispatch(Factor { matrix: &mut *self, epsilon, skip, leaves_out });
+        if !leaves_out && !self.rows_left_out.is_empty() {
+            self.forget_rows_left_out();
+        }
         smallest
     }
 
-    /// Replaces b by the solution of S x = b.
-    pub fn solve(&self, x: &mut [f64]) {
-        Arch::new().dispatch(Solve { matrix: self, x });
-    }
-
     #[inline(always)]
-    fn factor_here(&mut self, epsilon: f64, skip: f64) -> f64 {
+    fn factor_here(&mut self, epsilon: f64, skip: f64, leaves_out: bool) -> f64 {
         // The shift of every diagonal entry is relative to S itself, so it comes before any update.
         for (entry, &at) in self.diagonal.iter_mut().zip(&self.diagonal_at) {
             *entry = self.values[at];
@@ -75,28 +47,97 @@ impl BlockCholesky {
                 self.values[at] += epsilon * entry;
             }
         }
-        let leaves_out = epsilon == 0.0 && skip == 0.0;
         if leaves_out {
             self.rows_left_out.iter().for_each(|&row| self.diagonal[row] = f64::INFINITY);
         }
         let mut smallest = f64::INFINITY;
-        for place in 0..self.pivots.len() {
-            let Pivot { size, start, diagonal, left_out, .. } = self.pivots[place];
-            if leaves_out && left_out > 0 {
-                let block = &mut self.scratch[..size * size];
-                let rows = self.values[diagonal..].chunks_exact(stride(size));
-                for (own, row) in block.chunks_exact_mut(size).zip(rows) {
-                    own.copy_from_slice(&row[..size]);
-                }
-                wide::leave_out(left_out, block, &mut self.diagonal[start..start + size]);
-            }
-            by_size!(
-                size,
-                N, W => smallest = self.factor_pivot::<N, W>(place, skip).min(smallest),
-                smallest = self.factor_wide(place, skip).min(smallest)
+        for k in 0..self.runs.len() {
+            let Run { pivots, alike } = self.runs[k].clone();
+            let least = by_kind!(
+                &alike,
+                N, W, beside => self.factor_alike::<N, W>(pivots, beside, skip, leaves_out),
+                self.factor_mixed(pivots.start, skip, leaves_out)
             );
+            smallest = smallest.min(least);
         }
         smallest
+    }
+
+    /// Factors a run of pivots that are alike.
+    #[inline(always)]
+    fn factor_alike<const N: usize, const W: usize>(
+        &mut self,
+        pivots: Range<usize>,
+        beside: usize,
+        skip: f64,
+        leaves_out: bool,
+    ) -> f64 {
+        let numbers = (1 + beside) * N * W;
+        let Self { updates, values, factors, diagonal, relative, scratch, pivot_products, .. } = self;
+        let pivots = &self.pivots[pivots];
+        let Some(first) = pivots.first() else { return f64::INFINITY };
+        let mut updates = updates[first.updates.start..].iter();
+        let mut smallest = f64::INFINITY;
+        for (pivot, factors) in pivots.iter().zip(factors[first.diagonal..].chunks_exact_mut(numbers)) {
+            if leaves_out && pivot.left_out > 0 {
+                leave_out(pivot, &values[pivot.diagonal..], scratch, diagonal);
+            }
+            // Targets belong to later pivots than the blocks that they are made of.
+            let end = pivot.diagonal + numbers;
+            let (done, later) = values.split_at_mut(end);
+            let own = done[pivot.diagonal..].as_chunks_mut::<W>().0.as_chunks_mut::<N>().0;
+            let out = factors.as_chunks_mut::<W>().0.as_chunks_mut::<N>().0;
+            let (Some((block, beside)), Some((place, scaled)), Some(reference), Some(relative)) = (
+                own.split_first_mut(),
+                out.split_first_mut(),
+                diagonal[pivot.start..].first_chunk::<N>(),
+                relative[pivot.start..].first_chunk_mut::<N>(),
+            ) else {
+                return f64::INFINITY;
+            };
+            // Kept in registers: what was just written number by number is slow to read back in one piece.
+            let (inverse, found) = kernel::invert(block, reference, skip);
+            (*place, *relative) = (inverse, found);
+            for (block, scaled) in beside.iter().zip(&mut *scaled) {
+                kernel::scale(&inverse, block, scaled);
+            }
+            for (i, scaled) in scaled.iter().enumerate() {
+                for (block, update) in beside[i..].iter().zip(&mut updates) {
+                    if let Some(target) = rows_mut::<N, W>(&mut later[update.target - end..]) {
+                        kernel::update(scaled, block, target);
+                    }
+                }
+            }
+            for (block, scaled) in beside.iter_mut().zip(&*scaled) {
+                kernel::turn(scaled, block);
+            }
+            let least = found.iter().fold(f64::INFINITY, |least, &r| least.min(r));
+            smallest = smallest.min(least);
+            if let Some(products) = pivot_products {
+                products[pivot.block] = least.clamp(0.0, 1.0);
+            }
+        }
+        smallest
+    }
+
+    /// Factors a pivot whose blocks are of different widths, or wider than those of joints.
+    #[inline(always)]
+    fn factor_mixed(&mut self, place: usize, skip: f64, leaves_out: bool) -> f64 {
+        let Self { pivots, values, scratch, diagonal, .. } = self;
+        let pivot = &pivots[place];
+        if leaves_out && pivot.left_out > 0 {
+            leave_out(pivot, &values[pivot.diagonal..], scratch, diagonal);
+        }
+        let (block, size) = (pivot.block, pivot.size);
+        let least = by_size!(
+            size,
+            N, W => self.factor_pivot::<N, W>(place, skip),
+            self.factor_wide(place, skip)
+        );
+        if let Some(products) = &mut self.pivot_products {
+            products[block] = least.clamp(0.0, 1.0);
+        }
+        least
     }
 
     #[inline(always)]
@@ -116,7 +157,6 @@ impl BlockCholesky {
         (*place, *relative) = (inverse, pivots);
         for beside in &beside[pivot.beside.clone()] {
             let (block, out) = (&values[beside.offset..], &mut factors[beside.offset..]);
-            // The commonest case, all joints of one kind, with every length known.
             if beside.columns == N
                 && let (Some(block), Some(out)) = (rows::<N, W>(block), rows_mut::<N, W>(out))
             {
@@ -137,6 +177,12 @@ impl BlockCholesky {
                 kernel::update(scaled, block, target);
             } else {
                 wide::update(N, scaled, block, update.rows, update.columns, later);
+            }
+        }
+        for beside in beside[pivot.beside.clone()].iter().filter(|beside| beside.columns == N) {
+            let (scaled, block) = (&factors[beside.offset..], &mut values[beside.offset..]);
+            if let (Some(scaled), Some(block)) = (rows::<N, W>(scaled), rows_mut::<N, W>(block)) {
+                kernel::turn(scaled, block);
             }
         }
         pivots.iter().fold(f64::INFINITY, |least, &r| least.min(r))
@@ -164,87 +210,20 @@ impl BlockCholesky {
         }
         smallest
     }
-
-    #[inline(always)]
-    fn solve_here(&self, x: &mut [f64]) {
-        for pivot in &self.pivots {
-            by_size!(pivot.size, N, W => self.forward::<N, W>(pivot, x), self.forward_wide(pivot, x));
-        }
-        for pivot in self.pivots.iter().rev() {
-            by_size!(pivot.size, N, W => self.backward::<N, W>(pivot, x), self.backward_wide(pivot, x));
-        }
-    }
-
-    #[inline(always)]
-    fn forward<const N: usize, const W: usize>(&self, pivot: &Pivot, x: &mut [f64]) {
-        let Some(&y) = x[pivot.start..].first_chunk::<N>() else { return };
-        for beside in &self.beside[pivot.beside.clone()] {
-            let block = &self.factors[beside.offset..];
-            let target = &mut x[beside.start..];
-            if beside.columns == N
-                && let (Some(block), Some(target)) = (rows::<N, W>(block), target.first_chunk_mut::<N>())
-            {
-                kernel::forward(block, &y, target);
-            } else {
-                wide::forward(&y, block, beside.columns, target);
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn backward<const N: usize, const W: usize>(&self, pivot: &Pivot, x: &mut [f64]) {
-        let inverse = rows::<N, W>(&self.factors[pivot.diagonal..]);
-        let (Some(inverse), Some(y)) = (inverse, x[pivot.start..].first_chunk::<N>()) else { return };
-        let mut solution = kernel::multiply(inverse, y);
-        for beside in &self.beside[pivot.beside.clone()] {
-            let (block, source) = (&self.factors[beside.offset..], &x[beside.start..]);
-            if beside.columns == N
-                && let (Some(block), Some(source)) = (rows::<N, W>(block), source.first_chunk::<N>())
-            {
-                kernel::backward(block, source, &mut solution);
-            } else {
-                wide::backward(block, &source[..beside.columns], &mut solution);
-            }
-        }
-        if let Some(out) = x[pivot.start..].first_chunk_mut::<N>() {
-            *out = solution;
-        }
-    }
-
-    fn forward_wide(&self, pivot: &Pivot, x: &mut [f64]) {
-        for beside in &self.beside[pivot.beside.clone()] {
-            let (own, others) = own_and_others(x, pivot, beside.start);
-            wide::forward(own, &self.factors[beside.offset..], beside.columns, others);
-        }
-    }
-
-    fn backward_wide(&self, pivot: &Pivot, x: &mut [f64]) {
-        let n = pivot.size;
-        let inverse = &self.factors[pivot.diagonal..pivot.diagonal + n * n];
-        let mut solution = vec![0.0; n];
-        wide::multiply(n, inverse, &x[pivot.start..pivot.start + n], &mut solution);
-        for beside in &self.beside[pivot.beside.clone()] {
-            let source = &x[beside.start..beside.start + beside.columns];
-            wide::backward(&self.factors[beside.offset..], source, &mut solution);
-        }
-        x[pivot.start..pivot.start + n].copy_from_slice(&solution);
-    }
 }
 
-/// The rows of one pivot, and those from `other` on, of another.
-fn own_and_others<'a>(x: &'a mut [f64], pivot: &Pivot, other: usize) -> (&'a [f64], &'a mut [f64]) {
-    let own = pivot.start..pivot.start + pivot.size;
-    if other < pivot.start {
-        let (before, from) = x.split_at_mut(pivot.start);
-        (&from[..pivot.size], &mut before[other..])
-    } else {
-        let (before, behind) = x.split_at_mut(own.end);
-        (&before[own.start..], &mut behind[other - own.end..])
+/// Chooses the rows of a pivot that are left out, given its block of S.
+fn leave_out(pivot: &Pivot, own: &[f64], scratch: &mut [f64], diagonal: &mut [f64]) {
+    let size = pivot.size;
+    let block = &mut scratch[..size * size];
+    for (own, row) in block.chunks_exact_mut(size).zip(own.chunks_exact(stride(size))) {
+        own.copy_from_slice(&row[..size]);
     }
+    wide::leave_out(pivot.left_out, block, &mut diagonal[pivot.start..pivot.start + size]);
 }
 
 #[inline(always)]
-fn rows<const N: usize, const W: usize>(block: &[f64]) -> Option<&[[f64; W]; N]> {
+pub(super) fn rows<const N: usize, const W: usize>(block: &[f64]) -> Option<&[[f64; W]; N]> {
     block.as_chunks::<W>().0.first_chunk::<N>()
 }
 

@@ -165,7 +165,7 @@ fn blocks<'a>(entries: &[(usize, usize, f64)], sizes: &[usize]) -> Contender<'a>
             matrix.values_mut().copy_from_slice(&values);
             matrix.factor(0.0, 0.0);
         }),
-        solve: Box::new(move |x| solver.borrow().solve(x)),
+        solve: Box::new(move |x| solver.borrow_mut().solve(x)),
     }
 }
 

@@ -68,7 +68,7 @@ impl Elimination {
     /// Which joints take part where a row of `joint` nearly depends on others, at the positions of
     /// [`Elimination::pivot_products_at`]: see [`triad_linalg::BlockCholesky::raise_shares`].
     pub fn raise_shares(&mut self, joint: usize, shares: &mut [f64]) {
-        self.factor.raise_shares(joint, &mut self.residual, shares);
+        self.factor.raise_shares(joint, shares);
     }
 
     fn set_up(&mut self, system: &System, state: &State) {

@@ -74,11 +74,11 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
         let rows = self.correction.len();
         let last = (order - 1) * rows;
-        let multiplier = |row: usize| {
-            let coefficients = self.lambda[..last].iter().skip(row).step_by(rows);
+        let multiplier = |&place: &usize| {
+            let coefficients = self.lambda[..last].iter().skip(place).step_by(rows);
             coefficients.rev().fold(0.0, |sum, c| sum * tau + c)
         };
-        let mut lambda: Vec<f64> = (0..rows).map(multiplier).collect();
+        let mut lambda: Vec<f64> = self.schur.factor.places().iter().map(multiplier).collect();
         for common in &self.rows.commons {
             // From the directions across the vector at the point of expansion to those at the state.
             let [t1, t2] = common.expanded.map(Vector3::from);

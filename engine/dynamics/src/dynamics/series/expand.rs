@@ -132,7 +132,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             self.prescribed.add_known(1.0, &mut self.values);
             self.rows.residual(B::DIRECTIONS, &self.values, &mut self.correction);
             self.angles.residual(&self.values, &self.rows.extra, &mut self.correction);
-            self.schur.factor.solve(&mut self.correction);
+            self.schur.factor.solve_in_place(&mut self.correction);
             self.counters.solves += 1;
             let lambda = &mut self.lambda[n * rows..(n + 1) * rows];
             for (lambda, correction) in lambda.iter_mut().zip(&self.correction) {

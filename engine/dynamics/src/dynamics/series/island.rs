@@ -83,7 +83,7 @@ impl IslandSeries {
     }
 
     /// Makes room for evaluations inside steps; `row_sizes` tells what Φ of each solver row is measured in.
-    pub fn enable_probes(&mut self, row_sizes: Vec<f64>) {
+    pub fn enable_probes(&mut self, row_sizes: &[f64]) {
         with!(&mut self.0, s => s.enable_probes(row_sizes));
     }
 

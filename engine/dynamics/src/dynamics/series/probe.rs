@@ -23,10 +23,14 @@ impl<const L: usize, B: Bodies<L>> WithSimd for PivotProducts<'_, L, B> {
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Makes a copy for other states; `row_sizes` tells what Φ of each solver row is measured in.
-    pub fn enable_probes(&mut self, row_sizes: Vec<f64>) {
+    pub fn enable_probes(&mut self, row_sizes: &[f64]) {
         self.schur.factor.keep_pivot_products();
         let mut probe = self.clone();
-        (probe.row_sizes, probe.resolving) = (row_sizes, true);
+        probe.row_sizes = vec![1.0; self.schur.factor.numbers()];
+        for (size, &place) in row_sizes.iter().zip(self.schur.factor.places()) {
+            probe.row_sizes[place] = *size;
+        }
+        probe.resolving = true;
         self.probe = Some(Box::new(probe));
     }
 
@@ -120,7 +124,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Which joints take part where a row of `joint` nearly depends on others, at the last pivot products.
     pub fn raise_shares(&mut self, joint: usize, shares: &mut [f64]) {
-        self.schur.factor.raise_shares(joint, &mut self.correction, shares);
+        self.schur.factor.raise_shares(joint, shares);
     }
 
     /// Goes back to the start t of the last step, from which the series were expanded.

@@ -96,7 +96,7 @@ impl IslandStepper {
         }
         let redundant = !dependent.is_empty();
         if loops {
-            series.enable_probes(violation::row_sizes(flat.as_ref().unwrap_or(system)));
+            series.enable_probes(&violation::row_sizes(flat.as_ref().unwrap_or(system)));
         }
         if whole.model.settings.error_estimate {
             series.carry_errors();

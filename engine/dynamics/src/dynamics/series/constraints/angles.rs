@@ -9,6 +9,7 @@ use crate::system::feature::Difference;
 use crate::system::index::FeatureId;
 use crate::system::row::Form;
 use nalgebra::Vector3;
+use triad_linalg::BlockCholesky;
 
 /// The angle of a joint, θ = atan2(a₂ · b, a₁ · b).
 #[derive(Clone, Debug)]
@@ -143,7 +144,13 @@ pub struct Angles {
 
 impl Angles {
     /// Of a system, with room for `stride` coefficients; `turns` are the angles at the start.
-    pub fn new(system: &System, place: &[LanePlace], stride: usize, turns: &[f64]) -> Self {
+    pub fn new(
+        system: &System,
+        place: &[LanePlace],
+        factor: &BlockCholesky,
+        stride: usize,
+        turns: &[f64],
+    ) -> Self {
         let starts = turns.iter().copied().chain(std::iter::repeat(0.0));
         let angles = system.angles.iter().zip(starts);
         let list =
@@ -155,7 +162,7 @@ impl Angles {
             let at = |f: FeatureId| place[f.index()];
             let pair = |d: Difference| [Some(at(d.plus)), d.minus.map(at)];
             Some(Relation {
-                row: row.solver,
+                row: factor.places()[row.solver],
                 constant,
                 angles: angles.map(|term| {
                     let (angle, factor) = term?;

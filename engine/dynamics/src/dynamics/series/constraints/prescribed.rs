@@ -13,6 +13,7 @@ use crate::system::System;
 use crate::system::feature::{Target, TargetCurve};
 use crate::system::row::Form;
 use nalgebra::Vector3;
+use triad_linalg::BlockCholesky;
 
 /// A feature that moves as prescribed.
 #[derive(Clone, Debug)]
@@ -45,7 +46,13 @@ pub struct Prescribed {
 
 impl Prescribed {
     /// Of a system, with room for `stride` coefficients.
-    pub fn new(system: &System, place: &[LanePlace], lanes: usize, stride: usize) -> Self {
+    pub fn new(
+        system: &System,
+        place: &[LanePlace],
+        factor: &BlockCholesky,
+        lanes: usize,
+        stride: usize,
+    ) -> Self {
         let driven = system.features.iter().zip(place).filter_map(|(feature, &place)| {
             let body = match feature.body {
                 BodyRef::Ground => None,
@@ -63,7 +70,7 @@ impl Prescribed {
         let numbers = system.rows.iter().filter_map(|row| match row.form {
             Form::Product { target: Target::Driven(k), .. } => {
                 let curve = system.targets[k].clone();
-                Some(PrescribedNumber { row: row.solver, curve, series: vec![0.0; stride] })
+                Some(PrescribedNumber { row: factor.places()[row.solver], curve, series: vec![0.0; stride] })
             }
             _ => None,
         });

@@ -7,7 +7,7 @@ use crate::system::feature::{Difference, Target};
 use crate::system::index::FeatureId;
 use crate::system::row::Form;
 use nalgebra::Vector3;
-use triad_linalg::orthonormal_basis;
+use triad_linalg::{BlockCholesky, orthonormal_basis};
 
 /// a − b = 0 for points.
 #[derive(Clone, Copy, Debug)]
@@ -57,8 +57,15 @@ pub struct Rows<const L: usize> {
 }
 
 impl<const L: usize> Rows<L> {
-    /// Sorts the rows of a system; `place` tells where features stand, `nowhere` is a feature that is always zero.
-    pub fn new(system: &System, place: &[LanePlace], nowhere: LanePlace, stride: usize) -> Self {
+    /// Sorts the rows of a system; `place` tells where features stand, `nowhere` is a feature that is always zero, and `factor`
+    /// where solver rows stand.
+    pub fn new(
+        system: &System,
+        place: &[LanePlace],
+        nowhere: LanePlace,
+        factor: &BlockCholesky,
+        stride: usize,
+    ) -> Self {
         let mut rows = Self {
             coincidences: Vec::new(),
             commons: Vec::new(),
@@ -66,23 +73,24 @@ impl<const L: usize> Rows<L> {
             factors: Vec::new(),
             lambda: Vec::new(),
             stride,
-            extra: vec![0.0; system.solver_rows],
+            extra: vec![0.0; factor.numbers()],
         };
         let at = |f: FeatureId| place[f.index()];
         let pair = |d: Difference| [at(d.plus), d.minus.map_or(nowhere, at)];
-        for (index, row) in system.rows.iter().enumerate() {
-            match row.form {
+        for (index, form) in system.rows.iter().enumerate() {
+            let row = factor.places()[form.solver];
+            match form.form {
                 Form::Coincidence { a, b } => {
-                    rows.coincidences.push(Coincidence { a: at(a), b: at(b), row: row.solver });
+                    rows.coincidences.push(Coincidence { a: at(a), b: at(b), row });
                 }
                 Form::CommonVector { a, b } => {
                     let (a, b) = (at(a), at(b));
                     let (across, expanded) = ([[0.0; 3]; 2], [[0.0; 3]; 2]);
-                    rows.commons.push(CommonVector { a, b, row: row.solver, index, across, expanded });
+                    rows.commons.push(CommonVector { a, b, row, index, across, expanded });
                 }
                 Form::Product { a, b, target } => {
                     let constant = if let Target::Constant(c) = target { c } else { 0.0 };
-                    rows.add_product([pair(a), pair(b)], row.solver, constant, nowhere);
+                    rows.add_product([pair(a), pair(b)], row, constant, nowhere);
                 }
                 Form::Relation { .. } => {}
             }

@@ -1,0 +1,178 @@
+//! Solution with the factor: a sweep through the pivots in the order of their elimination, and one back.
+
+use super::numeric::rows;
+use super::runs::{Alike, Run, by_kind, by_size};
+use super::{BlockCholesky, Pivot, kernel, stride, wide};
+use pulp::{Arch, Simd, WithSimd};
+use std::ops::Range;
+
+struct Solve<'a> {
+    matrix: &'a BlockCholesky,
+    x: &'a mut [f64],
+}
+
+impl WithSimd for Solve<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.matrix.solve_here(self.x);
+    }
+}
+
+impl BlockCholesky {
+    /// Replaces b by the solution of S x = b, whose numbers stand at [`Self::places`].
+    pub fn solve_in_place(&self, x: &mut [f64]) {
+        Arch::new().dispatch(Solve { matrix: self, x });
+    }
+
+    /// The same for numbers in the order of scalar rows.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        let mut placed = std::mem::take(&mut self.placed);
+        for (x, &place) in x.iter().zip(&self.places) {
+            placed[place] = *x;
+        }
+        self.solve_in_place(&mut placed);
+        for (x, &place) in x.iter_mut().zip(&self.places) {
+            *x = placed[place];
+        }
+        self.placed = placed;
+    }
+
+    #[inline(always)]
+    fn solve_here(&self, x: &mut [f64]) {
+        for Run { pivots, alike } in &self.runs {
+            by_kind!(
+                alike,
+                N, W, beside => self.forward::<N, W>(pivots, beside, x),
+                self.forward_mixed(pivots, x)
+            );
+        }
+        for Run { pivots, alike } in self.runs.iter().rev() {
+            by_kind!(
+                alike,
+                N, W, beside => self.backward::<N, W>(pivots, beside, x),
+                self.backward_mixed(pivots, x)
+            );
+        }
+    }
+
+    /// Takes what pivots that are alike know off the right-hand sides of those after them.
+    #[inline(always)]
+    fn forward<const N: usize, const W: usize>(&self, pivots: &Range<usize>, beside: usize, x: &mut [f64]) {
+        let (false, Some(first)) = (beside == 0, self.pivots[pivots.clone()].first()) else { return };
+        let blocks = self.factors[first.diagonal..].chunks_exact((1 + beside) * N * W);
+        let others = self.beside[first.beside.start..].chunks_exact(beside);
+        let mut at = first.place;
+        for (blocks, others) in blocks.zip(others).take(pivots.len()) {
+            let (_, blocks) = blocks.split_at(N * W);
+            let Some(&y) = x[at..].first_chunk::<W>() else { return };
+            for (block, other) in blocks.as_chunks::<W>().0.as_chunks::<N>().0.iter().zip(others) {
+                if let Some(target) = x[other.place..].first_chunk_mut::<W>() {
+                    kernel::subtract(block, &y, target);
+                }
+            }
+            at += W;
+        }
+    }
+
+    /// Solutions of pivots that are alike, those after them being known.
+    #[inline(always)]
+    fn backward<const N: usize, const W: usize>(&self, pivots: &Range<usize>, beside: usize, x: &mut [f64]) {
+        let [first, ..] = &self.pivots[pivots.clone()] else { return };
+        let at = first.diagonal..first.diagonal + pivots.len() * (1 + beside) * N * W;
+        let blocks = self.factors[at.clone()].chunks_exact((1 + beside) * N * W);
+        let turned = self.values[at].chunks_exact((1 + beside) * N * W);
+        let mut others = &self.beside[first.beside.start..first.beside.start + pivots.len() * beside];
+        let mut at = first.place + pivots.len() * W;
+        for (blocks, turned) in blocks.zip(turned).rev() {
+            at -= W;
+            let (rest, own) = others.split_at(others.len() - beside);
+            others = rest;
+            let Some(inverse) = blocks.as_chunks::<W>().0.first_chunk::<N>() else { return };
+            let Some(y) = x[at..].first_chunk::<W>() else { return };
+            let mut solution = kernel::multiply(inverse, y);
+            let (_, turned) = turned.split_at(N * W);
+            for (block, other) in turned.as_chunks::<W>().0.as_chunks::<N>().0.iter().zip(own) {
+                if let Some(source) = x[other.place..].first_chunk::<W>() {
+                    kernel::subtract(block, source, &mut solution);
+                }
+            }
+            if let Some(out) = x[at..].first_chunk_mut::<W>() {
+                *out = solution;
+            }
+        }
+    }
+
+    /// The same for one pivot whose blocks are of different widths, or wider than those of joints.
+    #[inline(always)]
+    fn forward_mixed(&self, pivots: &Range<usize>, x: &mut [f64]) {
+        let pivot = &self.pivots[pivots.start];
+        by_size!(pivot.size, N, W => self.forward_one::<N, W>(pivot, x), {
+            let (before, behind) = x.split_at_mut(pivot.place + pivot.size);
+            for other in &self.beside[pivot.beside.clone()] {
+                let target = &mut behind[other.place - pivot.place - pivot.size..];
+                wide::forward(&before[pivot.place..], &self.factors[other.offset..], other.columns, target);
+            }
+        });
+    }
+
+    #[inline(always)]
+    fn forward_one<const N: usize, const W: usize>(&self, pivot: &Pivot, x: &mut [f64]) {
+        let Some(&y) = x[pivot.place..].first_chunk::<W>() else { return };
+        for other in &self.beside[pivot.beside.clone()] {
+            let (block, target) = (&self.factors[other.offset..], &mut x[other.place..]);
+            if other.columns == N
+                && let (Some(block), Some(target)) = (rows::<N, W>(block), target.first_chunk_mut::<W>())
+            {
+                kernel::subtract(block, &y, target);
+            } else {
+                wide::forward(&y[..N], block, other.columns, target);
+            }
+        }
+    }
+
+    /// The same for one pivot whose blocks are of different widths, or wider than those of joints.
+    #[inline(always)]
+    fn backward_mixed(&self, pivots: &Range<usize>, x: &mut [f64]) {
+        let pivot = &self.pivots[pivots.start];
+        by_size!(pivot.size, N, W => self.backward_one::<N, W>(pivot, x), self.backward_wide(pivot, x));
+    }
+
+    #[inline(always)]
+    fn backward_one<const N: usize, const W: usize>(&self, pivot: &Pivot, x: &mut [f64]) {
+        let inverse = rows::<N, W>(&self.factors[pivot.diagonal..]);
+        let (Some(inverse), Some(y)) = (inverse, x[pivot.place..].first_chunk::<W>()) else { return };
+        let mut solution = kernel::multiply(inverse, y);
+        for other in &self.beside[pivot.beside.clone()] {
+            let source = &x[other.place..];
+            if other.columns == N
+                && let (Some(block), Some(source)) =
+                    (rows::<N, W>(&self.values[other.offset..]), source.first_chunk::<W>())
+            {
+                kernel::subtract(block, source, &mut solution);
+            } else {
+                wide::backward(&self.factors[other.offset..], &source[..other.columns], &mut solution[..N]);
+            }
+        }
+        if let Some(out) = x[pivot.place..].first_chunk_mut::<W>() {
+            *out = solution;
+        }
+    }
+
+    fn backward_wide(&self, pivot: &Pivot, x: &mut [f64]) {
+        let (n, own) = (pivot.size, pivot.place..pivot.place + pivot.size);
+        let mut solution = vec![0.0; n];
+        wide::multiply(
+            n,
+            &self.factors[pivot.diagonal..pivot.diagonal + n * n],
+            &x[own.clone()],
+            &mut solution,
+        );
+        for other in &self.beside[pivot.beside.clone()] {
+            let source = &x[other.place..other.place + other.columns];
+            wide::backward(&self.factors[other.offset..], source, &mut solution);
+        }
+        x[own].copy_from_slice(&solution);
+    }
+}
