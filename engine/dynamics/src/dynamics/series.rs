@@ -41,12 +41,11 @@ use crate::dynamics::elimination::{Counters, LOST, NEAR_SINGULAR, REGULARIZATION
 use crate::model::BodyRef;
 use crate::system::System;
 use bodies::{Bodies, Bundle, FeatureSlot, LanePlace, Planar};
-use constraints::{Angles, Prescribed, Rows, Schur};
-use lanes::{LaneVector, largest};
+use constraints::{Angles, NOWHERE, Points, Prescribed, Rows, Schur};
+use lanes::LaneVector;
 use layout::bundles;
 use loads::Loads;
 use pulp::Simd;
-use triad_linalg::larger;
 
 /// The smallest tolerance that redundant rows admit: below it, their rounding would be taken for motion.
 pub const MIN_TOLERANCE_REDUNDANT: f64 = 1e-11;
@@ -61,6 +60,8 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     slots: Vec<FeatureSlot<L>>,
     /// Position and velocity at the point of expansion, bundle by bundle.
     state: Vec<[B::Natural; 2]>,
+    /// Largest |Q_k| over all bodies, order by order.
+    sizes: Vec<f64>,
     /// Coefficients of Q, `stride` for each bundle.
     q: Vec<B::Natural>,
     /// Coefficients of the directors' forces p, likewise.
@@ -73,6 +74,7 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     forces: Vec<LaneVector<L>>,
     /// Constant values of the ground's features.
     ground: Vec<LaneVector<L>>,
+    points: Points<L>,
     rows: Rows<L>,
     angles: Angles,
     prescribed: Prescribed,
@@ -139,6 +141,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let all = moving + ground.len();
         slots.shrink_to_fit();
         let schur = Schur::new(system, &place, L, B::TWIST);
+        let points = Points::new(system, &bundles, &slots, &place, &schur.factor);
         let rows = Rows::new(system, &place, nowhere, &schur.factor, stride);
         let angles = Angles::new(system, &place, &schur.factor, stride, turns);
         let prescribed = Prescribed::new(system, &place, &schur.factor, L, stride);
@@ -153,6 +156,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             loads,
             stride,
             state: vec![[B::at_rest(), B::zero()]; bundles.len()],
+            sizes: vec![0.0; stride],
             q: vec![B::zero(); bundles.len() * stride],
             p: vec![B::no_directors(); bundles.len() * stride],
             mobility: vec![B::no_mobility(); moving],
@@ -161,9 +165,10 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             values: vec![[[0.0; L]; 3]; all],
             forces: vec![[[0.0; L]; 3]; all],
             ground,
+            points,
             rows,
-            lambda: vec![0.0; schur.factor.numbers() * stride],
-            correction: vec![0.0; schur.factor.numbers()],
+            lambda: vec![0.0; (schur.factor.numbers() + NOWHERE) * stride],
+            correction: vec![0.0; schur.factor.numbers() + NOWHERE],
             schur,
             rows_left_out: false,
             redundant: false,
@@ -254,12 +259,6 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         for (value, ground) in self.values[first..].iter_mut().zip(&self.ground) {
             *value = if themselves { *ground } else { [[0.0; L]; 3] };
         }
-    }
-
-    /// Largest |Q_k| over all bodies.
-    #[inline(always)]
-    pub fn size_of(&self, k: usize) -> f64 {
-        (0..self.bundles.len()).map(|b| largest(B::lanes(&self.q[b * self.stride + k]))).fold(0.0, larger)
     }
 
     /// Whether the state is made of finite numbers.

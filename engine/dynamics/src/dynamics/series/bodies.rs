@@ -14,6 +14,8 @@ mod pair;
 
 mod planar;
 
+mod points;
+
 pub use bundle::Bundle;
 pub use kernels::Bodies;
 pub use planar::Planar;

@@ -1,5 +1,7 @@
 //! The rows of joints and drivers on series, and the matrix S that their multipliers follow from.
 
+mod points;
+
 mod rows;
 
 mod angles;
@@ -11,6 +13,7 @@ mod terms;
 mod schur;
 
 pub use angles::{AngleSeries, Angles};
+pub use points::{NOWHERE, Points};
 pub use prescribed::Prescribed;
 pub use rows::Rows;
 pub use schur::Schur;

@@ -3,7 +3,7 @@
 use super::lanes::times;
 use super::{Bodies, Series};
 use pulp::{Simd, WithSimd};
-use triad_linalg::{fma, larger};
+use triad_linalg::{fma, larger, raise};
 
 /// Iterative refinements of a solution with the factor of a regularized S, which take its effect out again.
 const REFINEMENTS: usize = 2;
@@ -16,12 +16,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Expands the motion about the state up to Q_order and λ_(order−2), with the present factor of S, or up to the
     /// first order that is `enough`. Returns the order.
     #[inline(always)]
-    pub fn expand(&mut self, order: usize, enough: impl Fn(&Self, usize) -> bool) -> usize {
+    pub fn expand<S: Simd>(&mut self, simd: S, order: usize, enough: impl Fn(&Self, usize) -> bool) -> usize {
         self.begin_expansion();
         let order = order.min(self.stride - 1);
         let first = usize::from(self.recall_evaluation());
         for n in first..=order.saturating_sub(2) {
-            self.solve_order(n);
+            self.solve_order(simd, n);
             if enough(self, n + 2) {
                 return n + 2;
             }
@@ -51,7 +51,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Q_(n+2) and λ_n from all coefficients before them — eq. (11.2).
     #[inline(always)]
-    pub(super) fn solve_order(&mut self, n: usize) {
+    pub(super) fn solve_order<S: Simd>(&mut self, simd: S, n: usize) {
         let kappa = ((n + 1) * (n + 2)) as f64;
         let over_kappa = 1.0 / kappa;
         for bundle in &mut self.bundles {
@@ -70,15 +70,18 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             bundle.begin(&q[0], &B::gram(q, n + 2, kappa), B::moment(q, p, n));
         }
         self.prepare_prescribed(n + 2, kappa);
-        self.solve(n);
+        self.solve(simd, n);
+        let mut largest = [0.0; L];
         for (b, bundle) in self.bundles.iter().enumerate() {
             let at = b * self.stride + n;
             let next = B::lanes_mut(&mut self.q[at + 2]);
             for (q, a) in next.iter_mut().zip(B::lanes(bundle.solution())) {
                 *q = times(a, &[over_kappa; L]);
+                raise(&mut largest, q);
             }
             self.p[at] = bundle.director_forces();
         }
+        self.sizes[n + 2] = largest.into_iter().fold(0.0, larger);
         if self.needs_values() {
             let rows = self.correction.len();
             let lambda = &self.lambda[n * rows..(n + 1) * rows];
@@ -110,17 +113,20 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Adds the joints' forces to the solutions that bodies have without them; λ goes to order n.
     #[inline(always)]
-    pub(super) fn solve(&mut self, n: usize) {
+    pub(super) fn solve<S: Simd>(&mut self, simd: S, n: usize) {
         let rows = self.correction.len();
         let refinements = match (self.regularizes_inertia, self.regularized || self.resolving) {
             (true, _) => PROXIMAL_STEPS,
             (false, true) => REFINEMENTS,
             (false, false) => 0,
         };
-        if rows == 0 && !self.regularizes_inertia {
+        if self.schur.factor.numbers() == 0 && !self.regularizes_inertia {
             return;
         }
-        self.set_ground(false);
+        let others = self.points.has_others();
+        if others {
+            self.set_ground(false);
+        }
         let (mut first, mut last) = (0.0, f64::INFINITY);
         for pass in 0..=refinements {
             if pass > 0 && self.regularizes_inertia {
@@ -128,23 +134,27 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                     bundle.remove_regularization(&state[0]);
                 }
             }
-            self.values_of(|_, bundle| *bundle.solution());
-            self.prescribed.add_known(1.0, &mut self.values);
-            self.rows.residual(B::DIRECTIONS, &self.values, &mut self.correction);
-            self.angles.residual(&self.values, &self.rows.extra, &mut self.correction);
+            self.set_residual(simd);
             self.schur.factor.solve_in_place(&mut self.correction);
             self.counters.solves += 1;
             let lambda = &mut self.lambda[n * rows..(n + 1) * rows];
-            for (lambda, correction) in lambda.iter_mut().zip(&self.correction) {
-                *lambda = if pass == 0 { *correction } else { *lambda + correction };
+            if pass == 0 {
+                lambda.copy_from_slice(&self.correction);
+            } else {
+                for (lambda, correction) in lambda.iter_mut().zip(&self.correction) {
+                    *lambda += correction;
+                }
             }
-            self.forces.fill([[0.0; L]; 3]);
-            self.rows.add_forces(B::DIRECTIONS, &self.correction, &mut self.forces);
-            self.angles.add_forces(&self.correction, &mut self.forces);
-            self.prescribed.add_forces(n, &self.forces);
-            for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
+            if others {
+                self.forces.fill([[0.0; L]; 3]);
+                self.rows.add_forces(B::DIRECTIONS, &self.correction, &mut self.forces);
+                self.angles.add_forces(&self.correction, &mut self.forces);
+                self.prescribed.add_forces(n, &self.forces);
+            }
+            for (b, (bundle, state)) in self.bundles.iter_mut().zip(&self.state).enumerate() {
                 let mut force = B::zero();
-                for slot in bundle.slots() {
+                self.points.add_forces::<S, B>(simd, b, &self.correction, &mut force);
+                for &slot in self.points.others(b) {
                     B::pull_back(&self.slots[slot], &self.forces[slot], &mut force);
                 }
                 bundle.apply(&state[0], &force);
@@ -159,6 +169,24 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 }
                 last = size;
             }
+        }
+    }
+
+    /// What is left of all rows, given the bodies' part of the unknown.
+    #[inline(always)]
+    fn set_residual<S: Simd>(&mut self, simd: S) {
+        self.correction.copy_from_slice(&self.rows.extra);
+        for (b, bundle) in self.bundles.iter().enumerate() {
+            let x = bundle.solution();
+            self.points.add_residual::<S, B>(simd, b, x, &mut self.correction);
+            for &slot in self.points.others(b) {
+                self.values[slot] = B::value(&self.slots[slot], x);
+            }
+        }
+        if self.points.has_others() {
+            self.prescribed.add_known(1.0, &mut self.values);
+            self.rows.residual(B::DIRECTIONS, &self.values, &mut self.correction);
+            self.angles.residual(&self.values, &self.rows.extra, &mut self.correction);
         }
     }
 

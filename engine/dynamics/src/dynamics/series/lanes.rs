@@ -58,6 +58,49 @@ pub fn less<const L: usize>(a: &Lane<L>, b: &Lane<L>, c: &Lane<L>) -> Lane<L> {
     out
 }
 
+/// The numbers in one register of the processor, where one has L of them.
+#[inline(always)]
+fn register<S: Simd, const L: usize>(x: &Lane<L>) -> Option<S::f64s> {
+    if L > 1 && S::F64_LANES == L { S::as_simd_f64s(x).0.first().copied() } else { None }
+}
+
+#[inline(always)]
+fn lane<S: Simd, const L: usize>(x: S::f64s) -> Lane<L> {
+    let mut out = [0.0; L];
+    if let Some(out) = S::as_mut_simd_f64s(&mut out).0.first_mut() {
+        *out = x;
+    }
+    out
+}
+
+/// [`times`], [`plus`] and [`less`] for numbers that are turned over into rows, or come from there: the compiler would take plain
+/// loops apart into the numbers of each row.
+#[inline(always)]
+pub fn times_whole<S: Simd, const L: usize>(simd: S, a: &Lane<L>, b: &Lane<L>) -> Lane<L> {
+    match (register::<S, L>(a), register::<S, L>(b)) {
+        (Some(a), Some(b)) => lane::<S, L>(simd.mul_f64s(a, b)),
+        _ => times(a, b),
+    }
+}
+
+/// a b + c.
+#[inline(always)]
+pub fn plus_whole<S: Simd, const L: usize>(simd: S, a: &Lane<L>, b: &Lane<L>, c: &Lane<L>) -> Lane<L> {
+    match (register::<S, L>(a), register::<S, L>(b), register::<S, L>(c)) {
+        (Some(a), Some(b), Some(c)) => lane::<S, L>(simd.mul_add_f64s(a, b, c)),
+        _ => plus(a, b, c),
+    }
+}
+
+/// c − a b.
+#[inline(always)]
+pub fn less_whole<S: Simd, const L: usize>(simd: S, a: &Lane<L>, b: &Lane<L>, c: &Lane<L>) -> Lane<L> {
+    match (register::<S, L>(a), register::<S, L>(b), register::<S, L>(c)) {
+        (Some(a), Some(b), Some(c)) => lane::<S, L>(simd.mul_add_f64s(simd.neg_f64s(a), b, c)),
+        _ => less(a, b, c),
+    }
+}
+
 /// a b − c d.
 #[inline(always)]
 pub fn minor<const L: usize>(a: &Lane<L>, b: &Lane<L>, c: &Lane<L>, d: &Lane<L>) -> Lane<L> {
@@ -160,6 +203,25 @@ pub fn rows_of_lanes<S: Simd, const L: usize>(simd: S, lanes: [Lane<L>; 4]) -> [
         *row = lanes.map(|lane| lane[l]);
     }
     rows
+}
+
+/// The same numbers the other way: four of each lane, side by side.
+#[inline(always)]
+pub fn lanes_of_rows<S: Simd, const L: usize>(simd: S, rows: &[[f64; 4]; L]) -> [Lane<L>; 4] {
+    let mut lanes = [[0.0; L]; 4];
+    if S::F64_LANES == 4
+        && let (Some(rows), Some(out)) =
+            (rows.first_chunk::<4>(), lanes.as_flattened_mut().as_chunks_mut().0.first_chunk_mut::<4>())
+    {
+        *out = simd.deinterleave_shfl_f64s::<[[f64; 4]; 4]>(*rows);
+        return lanes;
+    }
+    for (l, row) in rows.iter().enumerate() {
+        for (lane, x) in lanes.iter_mut().zip(row) {
+            lane[l] = *x;
+        }
+    }
+    lanes
 }
 
 /// Largest |x| over all components of the first `lanes` lanes.

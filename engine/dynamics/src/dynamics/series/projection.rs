@@ -5,6 +5,7 @@ use super::step::Part;
 use super::{Bodies, Series};
 use crate::newton::{Movable, Projectable, find_dependent_rows};
 use crate::system::index::SolverRow;
+use pulp::Simd;
 use triad_linalg::larger;
 
 impl<const L: usize, B: Bodies<L>> Projectable for Series<L, B> {
@@ -44,7 +45,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// One mass-orthogonal Newton step of the positions (0) or of the velocities (1) with the current factor. Both are one
     /// function, because it is compiled for each kind of bundle and each set of vector instructions.
     #[inline(always)]
-    pub(super) fn correct_here(&mut self, which: usize) -> f64 {
+    pub(super) fn correct_here<S: Simd>(&mut self, simd: S, which: usize) -> f64 {
         self.place_values();
         if which == 0 {
             self.set_violation();
@@ -73,7 +74,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
         self.prescribed.clear_known();
         // The multipliers of a correction mean nothing; the highest order has room for them.
-        self.solve(self.stride - 1);
+        self.solve(simd, self.stride - 1);
         let mut moved: f64 = 0.0;
         for (bundle, state) in self.bundles.iter().zip(&mut self.state) {
             let step = B::lanes(bundle.solution());

@@ -75,8 +75,8 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Step<'_, L, B> {
     type Output = SeriesStep;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> SeriesStep {
-        self.0.step_here(self.1)
+    fn with_simd<S: Simd>(self, simd: S) -> SeriesStep {
+        self.0.step_here(simd, self.1)
     }
 }
 
@@ -104,7 +104,7 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Call<'_, L, B> {
         match self.1 {
             Part::Assemble => self.0.assemble_here(simd),
             Part::Linearize => self.0.linearize_here(simd),
-            Part::Correct(which) => return self.0.correct_here(which),
+            Part::Correct(which) => return self.0.correct_here(simd, which),
             Part::Settle => self.0.settle(),
         }
         0.0
@@ -118,9 +118,9 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Evaluate<'_, L, B> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(self, simd: S) {
         self.0.begin_expansion();
-        self.0.solve_order(0);
+        self.0.solve_order(simd, 0);
     }
 }
 
@@ -153,14 +153,14 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     #[inline(always)]
-    fn step_here(&mut self, plan: StepPlan) -> SeriesStep {
+    fn step_here<S: Simd>(&mut self, simd: S, plan: StepPlan) -> SeriesStep {
         // Prescribed functions are smooth only between their breakpoints: a step ends exactly at the next one.
         let end = plan.end.min(self.next_break);
         let (start, left) = (self.time, end - self.time);
         let allowance = self.allowance(plan.tolerance);
         // Between breakpoints, prescribed functions are polynomials of degree five: only terms of higher order than those of
         // their accelerations show how well the series converge.
-        let expanded = self.expand(plan.order, |s, k| {
+        let expanded = self.expand(simd, plan.order, |s, k| {
             end < plan.end
                 && !plan.dry_run
                 && k > MIN_ORDER
@@ -259,7 +259,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// What the tolerance allows of the position, per hᵏ, and of the velocity, per hᵏ⁻¹, by the term of order k.
     #[inline(always)]
     fn room(&self, k: usize, [position, velocity]: [f64; 2]) -> [f64; 2] {
-        let term = self.size_of(k);
+        let term = self.sizes[k];
         [position / term, velocity / (k as f64 * term)]
     }
 
@@ -326,43 +326,48 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Planar;
     use super::*;
     use crate::constraints::mechanism::Mechanism;
     use crate::model::Model;
     use crate::scene::catalogue;
-    use crate::system::System;
+    use crate::system::{System, planar};
 
     /// Products and sums are fused whether the processor does it or not.
     #[test]
     fn every_set_of_instructions_gives_the_same_bits() {
-        for name in ["spatial-chain:5", "spatial-slider-crank"] {
+        for name in ["spatial-chain:5", "spatial-slider-crank", "n-four-bar:2"] {
             let scene = catalogue::scene(name).unwrap();
             let mechanism = Mechanism::new(System::new(Model::new(&scene).unwrap()));
             let system = &mechanism.system;
             let mut y = vec![0.0; 2 * system.coordinates];
             let (q, q_dot) = y.split_at_mut(system.coordinates);
             system.start(q, q_dot);
-            let mut own = Series::<4>::new(system, 12, &[]);
-            own.place(system, 0.0, &y);
-            own.linearize();
-            let mut plain = own.clone();
-            let plan =
-                StepPlan { order: 12, tolerance: 1e-9, length: system.length, end: 1.0, dry_run: false };
-            for _ in 0..5 {
-                let taken = own.step(plan);
-                assert_eq!(
-                    taken.h.to_bits(),
-                    Step(&mut plain, plan).with_simd(pulp::Scalar::new()).h.to_bits()
-                );
-                for part in [Part::Linearize, Part::Correct(0), Part::Correct(1)] {
-                    let moved = Call(&mut plain, part).with_simd(pulp::Scalar::new());
-                    assert_eq!(own.call(part).to_bits(), moved.to_bits(), "{name}: {part:?}");
-                }
+            let flat = planar::recognize(system, q).ok().map(|plane| plane.reduce(system, q).unwrap());
+            assert_eq!(flat.is_some(), name == "n-four-bar:2");
+            match flat {
+                Some(flat) => compare(name, &flat, Series::<4, Planar<4>>::planar(&flat, 12, &[]), y),
+                None => compare(name, system, Series::<4>::new(system, 12, &[]), y),
             }
-            let mut other = y.clone();
-            own.store(system, &mut y);
-            plain.store(system, &mut other);
-            assert!(y.iter().zip(&other).all(|(a, b)| a.to_bits() == b.to_bits()), "{name}");
         }
+    }
+
+    fn compare<B: Bodies<4>>(name: &str, system: &System, mut own: Series<4, B>, mut y: Vec<f64>) {
+        own.place(system, 0.0, &y);
+        own.linearize();
+        let mut plain = own.clone();
+        let plan = StepPlan { order: 12, tolerance: 1e-9, length: system.length, end: 1.0, dry_run: false };
+        for _ in 0..5 {
+            let taken = own.step(plan);
+            assert_eq!(taken.h.to_bits(), Step(&mut plain, plan).with_simd(pulp::Scalar::new()).h.to_bits());
+            for part in [Part::Linearize, Part::Correct(0), Part::Correct(1)] {
+                let moved = Call(&mut plain, part).with_simd(pulp::Scalar::new());
+                assert_eq!(own.call(part).to_bits(), moved.to_bits(), "{name}: {part:?}");
+            }
+        }
+        let mut other = y.clone();
+        own.store(system, &mut y);
+        plain.store(system, &mut other);
+        assert!(y.iter().zip(&other).all(|(a, b)| a.to_bits() == b.to_bits()), "{name}");
     }
 }

@@ -103,6 +103,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             self.q[b * self.stride + 2] = twin.q[b * self.stride + 2];
             self.p[b * self.stride] = twin.p[b * self.stride];
         }
+        self.sizes[2] = twin.sizes[2];
         let rows = self.correction.len();
         self.lambda[..rows].copy_from_slice(&twin.lambda[..rows]);
         self.counters.solves += solves;

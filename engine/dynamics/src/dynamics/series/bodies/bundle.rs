@@ -62,7 +62,6 @@ impl<const L: usize> Bundle<L> {
 }
 
 impl<const L: usize> Bodies<L> for Bundle<L> {
-    type Natural = Natural<L>;
     type Rigid = [Lane<L>; 6];
     type Moment = LaneVector<L>;
     type Directors = [LaneVector<L>; 3];

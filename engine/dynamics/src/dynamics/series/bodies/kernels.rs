@@ -6,16 +6,26 @@ use crate::system::System;
 use crate::system::body::RigidBody;
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
+use pulp::Simd;
 use std::fmt::Debug;
 use std::ops::Range;
+
+/// Points of L bodies, whose numbers are turned over into rows of single bodies and back.
+pub trait Points<const L: usize> {
+    /// Coordinates of the bodies, or anything that lives on them.
+    type Natural: Copy + Debug;
+
+    /// [`Bodies::value`] of points, to be turned over into rows.
+    fn point<S: Simd>(simd: S, slot: &FeatureSlot<L>, x: &Self::Natural) -> LaneVector<L>;
+    /// Takes off the generalized force of a force on points, which comes from rows.
+    fn pull_off<S: Simd>(simd: S, slot: &FeatureSlot<L>, f: &LaneVector<L>, sum: &mut Self::Natural);
+}
 
 /// A bundle of L bodies with the kernels that concern each body alone.
 ///
 /// Features, rows and loads are the same for all kinds of bundles: vectors of three components. In a plane these are
 /// components along two directions in the plane and along its normal; the last never changes.
-pub trait Bodies<const L: usize>: Clone + Debug + Sized {
-    /// Coordinates of the bodies, or anything that lives on them.
-    type Natural: Copy + Debug;
+pub trait Bodies<const L: usize>: Points<L> + Clone + Debug + Sized {
     /// Right-hand sides of the rigid-body rows.
     type Rigid: Copy;
     /// Moments about the centres of mass.

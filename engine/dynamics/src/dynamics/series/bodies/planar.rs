@@ -64,7 +64,6 @@ impl<const L: usize> Planar<L> {
 }
 
 impl<const L: usize> Bodies<L> for Planar<L> {
-    type Natural = [Pair<L>; 2];
     /// Of z · z = 1, and of what holds a pivot.
     type Rigid = (Lane<L>, Pair<L>);
     type Moment = Lane<L>;

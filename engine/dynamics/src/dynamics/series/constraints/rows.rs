@@ -1,5 +1,6 @@
 //! The rows of joints on series: what they demand of the next coefficients and the forces that their multipliers make.
 
+use super::points::{NOWHERE, holds_points};
 use crate::dynamics::series::bodies::LanePlace;
 use crate::dynamics::series::lanes::{Lane, LaneVector, add_dot, dot, scaled};
 use crate::system::System;
@@ -45,6 +46,8 @@ pub struct Product<const L: usize> {
 #[derive(Clone, Debug)]
 pub struct Rows<const L: usize> {
     coincidences: Vec<Coincidence>,
+    /// Those that [`super::Points`] do not see to.
+    driven: Vec<Coincidence>,
     /// Rows of common vectors.
     pub commons: Vec<CommonVector>,
     products: Vec<Product<L>>,
@@ -68,12 +71,13 @@ impl<const L: usize> Rows<L> {
     ) -> Self {
         let mut rows = Self {
             coincidences: Vec::new(),
+            driven: Vec::new(),
             commons: Vec::new(),
             products: Vec::new(),
             factors: Vec::new(),
             lambda: Vec::new(),
             stride,
-            extra: vec![0.0; factor.numbers()],
+            extra: vec![0.0; factor.numbers() + NOWHERE],
         };
         let at = |f: FeatureId| place[f.index()];
         let pair = |d: Difference| [at(d.plus), d.minus.map_or(nowhere, at)];
@@ -81,7 +85,11 @@ impl<const L: usize> Rows<L> {
             let row = factor.places()[form.solver];
             match form.form {
                 Form::Coincidence { a, b } => {
-                    rows.coincidences.push(Coincidence { a: at(a), b: at(b), row });
+                    let coincidence = Coincidence { a: at(a), b: at(b), row };
+                    rows.coincidences.push(coincidence);
+                    if !holds_points(system, &form.form) {
+                        rows.driven.push(coincidence);
+                    }
                 }
                 Form::CommonVector { a, b } => {
                     let (a, b) = (at(a), at(b));
@@ -231,7 +239,7 @@ impl<const L: usize> Rows<L> {
     /// What is left of the rows, given the features' part of the unknown.
     #[inline(always)]
     pub fn residual(&self, directions: usize, values: &[LaneVector<L>], out: &mut [f64]) {
-        for row in &self.coincidences {
+        for row in &self.driven {
             let (a, b) = (row.a.get(values), row.b.get(values));
             let extra = &self.extra[row.row..row.row + directions];
             let out = &mut out[row.row..row.row + directions];
@@ -261,7 +269,7 @@ impl<const L: usize> Rows<L> {
     /// Generalized forces of multipliers of the current order.
     #[inline(always)]
     pub fn add_forces(&self, directions: usize, lambda: &[f64], forces: &mut [LaneVector<L>]) {
-        for row in &self.coincidences {
+        for row in &self.driven {
             let lambda = &lambda[row.row..row.row + directions];
             let mut l = [0.0; 3];
             l[..directions].copy_from_slice(lambda);

@@ -90,13 +90,13 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Differ<'_, L, B> {
     type Output = (usize, f64);
 
     #[inline(always)]
-    fn with_simd<S: Simd>(mut self, _: S) -> (usize, f64) {
+    fn with_simd<S: Simd>(mut self, simd: S) -> (usize, f64) {
         let ([fewest, most], h) = (self.orders, self.h);
         self.twin.begin_expansion();
         let mut power = 1.0;
         for k in 0..=most {
             if k >= 2 {
-                self.twin.solve_order(k - 2);
+                self.twin.solve_order(simd, k - 2);
                 power *= h;
             }
             self.add(k, power);
