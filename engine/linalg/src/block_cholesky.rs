@@ -319,16 +319,19 @@ impl BlockCholesky {
         self.pivot_products.as_deref().unwrap_or_default()
     }
 
-    /// Which blocks take part where a row of `block` nearly depends on others: raises the share of each block to the largest
-    /// |xᵢ| √Sᵢᵢ of its rows, relative to the largest of all, x = S⁻¹ e and e the row of the block with the smallest pivot. The
-    /// factorization must be one without regularization.
-    pub fn raise_shares(&mut self, block: usize, shares: &mut [f64]) {
-        let Pivot { size, start, .. } = self.pivots[self.rank[block]];
-        let weakest = (start..start + size).min_by(|a, b| self.relative[*a].total_cmp(&self.relative[*b]));
-        let Some(weakest) = weakest else { return };
+    /// Which blocks take part where a row of each of `blocks` nearly depends on others: raises the share of each block to the
+    /// largest |xᵢ| √Sᵢᵢ of its rows, relative to the largest of all, x = S⁻¹ e and e the row of a block with the smallest pivot,
+    /// or the sum of several with their weights. The factorization must be one without regularization.
+    pub fn raise_shares(&mut self, blocks: &[(usize, f64)], shares: &mut [f64]) {
         let mut x = std::mem::take(&mut self.placed);
         x.fill(0.0);
-        x[self.places[weakest]] = 1.0;
+        for &(block, weight) in blocks {
+            let Pivot { size, start, .. } = self.pivots[self.rank[block]];
+            let weakest =
+                (start..start + size).min_by(|a, b| self.relative[*a].total_cmp(&self.relative[*b]));
+            let Some(weakest) = weakest else { continue };
+            x[self.places[weakest]] = weight;
+        }
         self.solve_in_place(&mut x);
         let part = |row: usize| {
             let diagonal = self.diagonal[row];

@@ -97,6 +97,10 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     regularized: bool,
     /// Whether rows that hardly hold are kept.
     resolving: bool,
+    /// Whether solutions are only corrections of a state, of which the next one takes out what rounding has left: they are not refined.
+    corrects_only: bool,
+    /// Whether the factor is that of the state, up to the last correction.
+    factor_is_here: bool,
     /// Whether bodies have inertia regularization, which proximal steps take out again.
     regularizes_inertia: bool,
     /// Work done so far.
@@ -174,6 +178,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             redundant: false,
             regularized: false,
             resolving: false,
+            corrects_only: false,
+            factor_is_here: false,
             regularizes_inertia: system.regularizes_inertia(),
             counters: Counters::default(),
             probe: None,

@@ -8,7 +8,7 @@
 //! | [`CHART_POSITIONS`] | a position with given independent coordinates | every 4 | consistent, stalled after 5 | 30 |
 //! | [`AHEAD_POSITIONS`] | a position beyond a singular one | each time | consistent, stalled | 4 |
 //! | [`PASSAGE_POSITIONS`] | a position beside a singular one | each time | the next would be consistent, stalled | 12 |
-//! | [`PASSAGE_VELOCITIES`] | its velocities | at hand | consistent, stalled | 3 |
+//! | [`PASSAGE_VELOCITIES`] | its velocities | at hand | the next would be consistent, stalled | 3 |
 //! | [`STEP_POSITIONS`] | the end of a step | at hand | consistent, stalled | 3 |
 //! | [`SERIES_POSITIONS`] | the end of a step of the series | once | the next would be consistent | 3 |
 //! | [`ASSEMBLY_VELOCITIES`] | the start of a run | once | consistent, stalled | 12 |
@@ -122,9 +122,9 @@ pub const AHEAD_POSITIONS: StopRule = StopRule { max_corrections: 4, ..ASSEMBLY_
 /// A position beside a singular one, at a part of 1e-6 or more of the length: a correction of 1e-10 leaves what rounding leaves.
 pub const PASSAGE_POSITIONS: StopRule =
     StopRule { consistent: 1e-10, diverged: 0.3, max_corrections: 12, ..ASSEMBLY_POSITIONS };
-/// Velocities there: only their direction and the smooth curve through both sides are wanted.
+/// Velocities there: the problem is linear, and the factor at most 1e-10 of the length away: a correction of 1e-6 leaves 1e-12.
 pub const PASSAGE_VELOCITIES: StopRule =
-    StopRule { linearize: Linearize::Never, max_corrections: 3, ..ASSEMBLY_POSITIONS };
+    StopRule { linearize: Linearize::Never, consistent: 1e-6, max_corrections: 3, ..ASSEMBLY_POSITIONS };
 /// The end of a step of a method that knows nothing of the constraints: as far off as its error, with the factor of its last
 /// evaluation. What is left is projected at the end of the next step.
 pub const STEP_POSITIONS: StopRule =

@@ -32,7 +32,7 @@ pub trait Track {
     /// Pivot products of the joints at the state.
     fn pivot_products(&mut self) -> &[f64];
 
-    /// Which joints take part where a row of `joint` nearly depends on others, at the last pivot products: raises the share of
-    /// each to at most one.
-    fn raise_shares(&mut self, joint: usize, shares: &mut [f64]);
+    /// Which joints take part where rows of `joints`, with their weights, nearly depend on others, at the last pivot products: raises
+    /// the share of each to at most one.
+    fn raise_shares(&mut self, joints: &[(usize, f64)], shares: &mut [f64]);
 }

@@ -65,10 +65,10 @@ impl Elimination {
         self.factor.pivot_products()
     }
 
-    /// Which joints take part where a row of `joint` nearly depends on others, at the positions of
+    /// Which joints take part where rows of `joints` nearly depend on others, at the positions of
     /// [`Elimination::pivot_products_at`]: see [`triad_linalg::BlockCholesky::raise_shares`].
-    pub fn raise_shares(&mut self, joint: usize, shares: &mut [f64]) {
-        self.factor.raise_shares(joint, shares);
+    pub fn raise_shares(&mut self, joints: &[(usize, f64)], shares: &mut [f64]) {
+        self.factor.raise_shares(joints, shares);
     }
 
     fn set_up(&mut self, system: &System, state: &State) {

@@ -115,7 +115,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     #[inline(always)]
     pub(super) fn solve<S: Simd>(&mut self, simd: S, n: usize) {
         let rows = self.correction.len();
-        let refinements = match (self.regularizes_inertia, self.regularized || self.resolving) {
+        let refines = self.regularized || (self.resolving && !self.corrects_only);
+        let refinements = match (self.regularizes_inertia, refines) {
             (true, _) => PROXIMAL_STEPS,
             (false, true) => REFINEMENTS,
             (false, false) => 0,

@@ -174,9 +174,9 @@ impl IslandSeries {
         with!(&mut self.0, s => s.probe().map_or(&[], |probe| probe.pivot_products_here()))
     }
 
-    /// Which joints take part where a row of `joint` nearly depends on others, at the copy's last pivot products.
-    pub fn raise_shares(&mut self, joint: usize, shares: &mut [f64]) {
-        with!(&mut self.0, s => s.probe().map_or((), |probe| probe.raise_shares(joint, shares)));
+    /// Which joints take part where rows of `joints` nearly depend on others, at the copy's last pivot products.
+    pub fn raise_shares(&mut self, joints: &[(usize, f64)], shares: &mut [f64]) {
+        with!(&mut self.0, s => s.probe().map_or((), |probe| probe.raise_shares(joints, shares)));
     }
 
     /// How fast rows turn at the state, 1/s.

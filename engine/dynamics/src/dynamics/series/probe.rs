@@ -30,7 +30,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         for (size, &place) in row_sizes.iter().zip(self.schur.factor.places()) {
             probe.row_sizes[place] = *size;
         }
-        probe.resolving = true;
+        (probe.resolving, probe.corrects_only) = (true, true);
         self.probe = Some(Box::new(probe));
     }
 
@@ -54,6 +54,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         for (own, given) in probe.angles.list.iter_mut().zip(&angles.list) {
             own.state.reference = given.state.reference;
         }
+        probe.factor_is_here = false;
         probe.set_time(start + tau);
         for (b, state) in probe.state.iter_mut().enumerate() {
             let coefficients = &q[b * *stride..=b * *stride + order];
@@ -85,6 +86,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Takes them over as the state at time t.
     pub fn write(&mut self, t: f64, numbers: &[f64]) {
+        self.factor_is_here = false;
         self.set_time(t);
         let (positions, velocities) = numbers.split_at(numbers.len() / 2);
         let mut given = positions.iter().zip(velocities);
@@ -99,6 +101,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     pub fn project(&mut self, length: f64) -> Option<f64> {
         let positions = project_positions(self, &rules::PASSAGE_POSITIONS, length);
         project_velocities(self, &rules::PASSAGE_VELOCITIES, length);
+        self.factor_is_here = positions.has_converged() && !self.regularized;
         positions.has_converged().then_some(positions.moved)
     }
 
@@ -116,15 +119,17 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         most
     }
 
-    /// Pivot products of the joints at the state.
+    /// Pivot products of the joints at the state, or where it was before the last correction of a projection that has converged.
     pub fn pivot_products_here(&mut self) -> &[f64] {
-        Arch::new().dispatch(PivotProducts(self));
+        if !self.factor_is_here {
+            Arch::new().dispatch(PivotProducts(self));
+        }
         self.pivot_products()
     }
 
-    /// Which joints take part where a row of `joint` nearly depends on others, at the last pivot products.
-    pub fn raise_shares(&mut self, joint: usize, shares: &mut [f64]) {
-        self.schur.factor.raise_shares(joint, shares);
+    /// Which joints take part where rows of `joints` nearly depend on others, at the last pivot products.
+    pub fn raise_shares(&mut self, joints: &[(usize, f64)], shares: &mut [f64]) {
+        self.schur.factor.raise_shares(joints, shares);
     }
 
     /// Goes back to the start t of the last step, from which the series were expanded.

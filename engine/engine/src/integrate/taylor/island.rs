@@ -305,8 +305,8 @@ impl Track for IslandStepper {
         self.series.probe_pivot_products()
     }
 
-    fn raise_shares(&mut self, joint: usize, shares: &mut [f64]) {
-        self.series.raise_shares(joint, shares);
+    fn raise_shares(&mut self, joints: &[(usize, f64)], shares: &mut [f64]) {
+        self.series.raise_shares(joints, shares);
         // What the other joints of a body with a pivot do to it, the pivot takes up.
         for (pivot, others) in &self.pivots {
             shares[*pivot] = others.iter().map(|other| shares[*other]).fold(shares[*pivot], f64::max);

@@ -33,6 +33,8 @@ const FOLLOWED: (f64, f64) = (0.02, 0.05);
 const VANISHING: f64 = 0.2;
 /// Share in the dependence of rows above which a joint is named.
 const INVOLVED: f64 = 3e-2;
+/// Most sums of rows, with changing signs, that are tried before each row by itself.
+const SUMS: usize = 4;
 
 /// A minimum of a joint's pivot product along the path of a step.
 #[derive(Clone, Copy, Debug)]
@@ -69,6 +71,8 @@ pub(super) struct Examiner {
     products: [Vec<f64>; 3],
     /// Share of each joint in what was found last.
     shares: Vec<f64>,
+    /// Joints that lose their hold there, with signs.
+    lost: Vec<(usize, f64)>,
     /// Evaluations so far.
     pub count: u64,
 }
@@ -86,6 +90,8 @@ impl Examiner {
         }
         self.products.iter_mut().for_each(|products| products.resize(joints, 0.0));
         self.shares.resize(joints, 0.0);
+        self.lost.clear();
+        self.lost.reserve(joints);
     }
 
     /// What a dip is. `largest` are the largest pivot products so far.
@@ -179,9 +185,11 @@ impl Examiner {
     fn write(&mut self, track: &mut dyn Track, pair: usize, (time, tau): (f64, f64), t: f64) {
         let [before, after] = &self.beside[pair];
         let (n, x) = (before.len() / 2, 0.5 + 0.5 * (t - time) / tau);
-        for i in 0..n {
-            let ends = [before, after].map(|state| [state[i], state[n + i]]);
-            (self.middle[i], self.middle[n + i]) = hermite::cubic(ends[0], ends[1], 2.0 * tau, x);
+        let [before, after] = [before, after].map(|state| state.split_at(n));
+        let (positions, velocities) = self.middle.split_at_mut(n);
+        let ends = before.0.iter().zip(before.1).zip(after.0.iter().zip(after.1));
+        for ((y, v), ((y0, v0), (y1, v1))) in positions.iter_mut().zip(velocities).zip(ends) {
+            (*y, *v) = hermite::cubic([*y0, *v0], [*y1, *v1], 2.0 * tau, x);
         }
         track.write(t, &self.middle);
     }
@@ -197,34 +205,54 @@ impl Examiner {
         let mut points = [(0.0, 0.0); 4];
         let ends = [0, 1].map(|side| root(&self.products[side], largest, dip.joint));
         (points[0], points[3]) = ((-ends[0], -tau), (ends[1], tau));
+        self.write(track, 0, (time, tau), time + off);
+        self.products[2].copy_from_slice(track.pivot_products());
         let part = 0.5 * (tau - off.abs());
         for (place, sign) in [(1, -1.0), (2, 1.0)] {
             let at = off + sign * part;
             self.write(track, 0, (time, tau), time + at);
             points[place] = (sign * root(track.pivot_products(), largest, dip.joint), at);
         }
-        self.write(track, 0, (time, tau), time + off);
-        self.products[2].copy_from_slice(track.pivot_products());
         self.count += 3;
-        self.find_shares(track, (time, tau), largest);
+        self.find_shares(track, largest);
         inverse(&points).map(|at| time + at)
     }
 
-    /// Shares of the joints in the dependences of rows there.
-    fn find_shares(&mut self, track: &mut dyn Track, (time, tau): (f64, f64), largest: &[f64]) {
-        track.write(time + tau, &self.beside[0][1]);
-        track.pivot_products();
-        self.shares.fill(0.0);
+    /// Shares of the joints in the dependences of rows there, with the pivot products beside it that were asked for last.
+    fn find_shares(&mut self, track: &mut dyn Track, largest: &[f64]) {
+        let Self { products, shares, lost, .. } = self;
+        lost.clear();
         for joint in 0..largest.len() {
-            let [a, b, m] = [0, 1, 2].map(|which| root(&self.products[which], largest, joint));
+            let [a, b, m] = [0, 1, 2].map(|which| root(&products[which], largest, joint));
             if a.max(b) < WIDEST && m < VANISHING * a.min(b) {
-                track.raise_shares(joint, &mut self.shares);
-                if self.shares.iter().all(|share| *share > INVOLVED) {
-                    return;
-                }
+                lost.push((joint, 1.0));
+            }
+        }
+        let all = |shares: &[f64]| shares.iter().all(|share| *share > INVOLVED);
+        // Many joints lose their hold at once where all take part: a few sums of their rows show it.
+        shares.fill(0.0);
+        for sum in 0..SUMS.min(lost.len() / 2) {
+            for (joint, sign) in &mut *lost {
+                *sign = if mixed(*joint, sum) { 1.0 } else { -1.0 };
+            }
+            track.raise_shares(lost, shares);
+            if all(shares) {
+                return;
+            }
+        }
+        shares.fill(0.0);
+        for (joint, _) in &*lost {
+            track.raise_shares(&[(*joint, 1.0)], shares);
+            if all(shares) {
+                return;
             }
         }
     }
+}
+
+/// A bit that changes irregularly from one joint to the next, for each sum of them.
+fn mixed(joint: usize, sum: usize) -> bool {
+    (joint as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (40 + 5 * sum) & 1 == 1
 }
 
 /// Root of a joint's pivot product relative to the largest.

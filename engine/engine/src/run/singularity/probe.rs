@@ -126,7 +126,7 @@ impl Track for Path<'_> {
         elimination.pivot_products_at(&self.mechanism.system, state)
     }
 
-    fn raise_shares(&mut self, joint: usize, shares: &mut [f64]) {
-        self.probe.elimination.raise_shares(joint, shares);
+    fn raise_shares(&mut self, joints: &[(usize, f64)], shares: &mut [f64]) {
+        self.probe.elimination.raise_shares(joints, shares);
     }
 }

@@ -9,33 +9,35 @@ pub(super) const REDUNDANT: f64 = 1e-7;
 #[derive(Clone, Debug)]
 pub(super) struct Sample {
     pub products: Vec<f64>,
-    /// Their roots, relative to the largest, at most 1.
-    pub roots: Vec<f64>,
-    /// Lower bounds of the distances from a singular configuration, as angles, rad; infinite for joints that are redundant.
+    /// Lower bounds of the distances from a singular configuration, as angles, rad; zero for roots that count as zero, infinite for
+    /// joints that are redundant.
     pub angles: Vec<f64>,
 }
 
 impl Sample {
     /// Allocates for a number of joints.
     pub(super) fn new(joints: usize) -> Self {
-        let [products, roots, angles] = [(); 3].map(|()| Vec::with_capacity(joints));
-        Self { products, roots, angles }
+        let [products, angles] = [(); 2].map(|()| Vec::with_capacity(joints));
+        Self { products, angles }
     }
 
     /// Makes room for so many joints.
     pub(super) fn resize(&mut self, joints: usize) {
-        for numbers in [&mut self.products, &mut self.roots, &mut self.angles] {
+        for numbers in [&mut self.products, &mut self.angles] {
             numbers.resize(joints, 0.0);
         }
     }
 
-    /// Finds roots and angles, once for all that ask: `largest` are the largest products so far, and `floor` is a root that counts as zero.
+    /// Root of a joint's product, relative to the largest, at most 1.
+    pub(super) fn root(&self, joint: usize, largest: &[f64]) -> f64 {
+        (self.products[joint] / largest[joint]).clamp(0.0, 1.0).sqrt()
+    }
+
+    /// Finds angles, once for all that ask: `largest` are the largest products so far, and `floor` is a root that counts as zero.
     pub(super) fn measure(&mut self, largest: &[f64], floor: f64) {
-        let Self { products, roots, angles } = self;
-        for ((root, product), largest) in roots.iter_mut().zip(&*products).zip(largest) {
-            *root = (product / largest).clamp(0.0, 1.0).sqrt();
-        }
-        for ((angle, root), largest) in angles.iter_mut().zip(&*roots).zip(largest) {
+        let Self { products, angles } = self;
+        for ((angle, product), largest) in angles.iter_mut().zip(&*products).zip(largest) {
+            let root = (product / largest).clamp(0.0, 1.0).sqrt();
             *angle = if *largest > REDUNDANT { angle_above(root - floor) } else { f64::INFINITY };
         }
     }

@@ -20,6 +20,8 @@ const OBSERVED_RATE_BOUND: f64 = 2.0;
 /// many change fastest just there.
 const NEAR: f64 = 0.1;
 const STEEP: f64 = 2.0;
+/// Lower bound of such a distance, as an angle, rad, from which on it is not near.
+const FAR: f64 = 0.1005;
 /// Root of a pivot product, relative to the largest, below which a dip is looked at, and a joint has its zero at one.
 const DEEP: f64 = 0.1;
 /// Turn of the rows below which a part of a step is not divided, rad.
@@ -96,12 +98,16 @@ pub(super) struct Search<'a> {
 
 impl Search<'_> {
     /// Keeps the pivot products at time t.
-    fn sample(&mut self, t: f64, place: usize) {
+    fn probe(&mut self, t: f64, place: usize) {
         self.examiner.count += 1;
         self.track.place(t);
-        let sample = &mut self.samples[place];
-        sample.products.copy_from_slice(self.track.pivot_products());
-        sample.measure(&self.history.largest, self.step.floor());
+        self.samples[place].products.copy_from_slice(self.track.pivot_products());
+    }
+
+    /// Keeps what they say of each joint as well.
+    fn sample(&mut self, t: f64, place: usize) {
+        self.probe(t, place);
+        self.samples[place].measure(&self.history.largest, self.step.floor());
     }
 
     /// Square of the distance of a joint from a singular configuration, relative to its largest.
@@ -123,21 +129,20 @@ impl Search<'_> {
         let [from, to] = [a, b].map(|end| &self.samples[end.1]);
         let mut found = None;
         let mut least = 1.0;
-        let above = from.angles.iter().zip(&to.angles).map(|(from, to)| from + to);
-        for (joint, (above, fastest)) in above.zip(&self.history.fastest_change).enumerate() {
+        let angles = from.angles.iter().zip(&to.angles);
+        for (joint, ((low, high), fastest)) in angles.zip(&self.history.fastest_change).enumerate() {
             let turn = RATE_BOUND.max(OBSERVED_RATE_BOUND * fastest) * turned;
-            let roots = [from.roots[joint], to.roots[joint]];
             // Most joints are far from it, and farther than the one found so far: exact arcsines cost more than all else here.
-            let far = roots[0] - floor >= NEAR && roots[1] - floor >= NEAR;
-            if above > least * if far { turn } else { STEEP * turn } {
+            let far = low.min(*high) >= FAR;
+            if low + high > least * if far { turn } else { STEEP * turn } {
                 continue;
             }
-            let part = |end: usize| match roots[end] {
+            let part = |end: usize, sample: &Sample| match sample.root(joint, &self.history.largest) {
                 root if known[end] && root < DEEP => PI,
                 root if root <= floor => 0.0,
                 root => libm::asin(root - floor),
             };
-            let (from, to) = (part(0), part(1));
+            let (from, to) = (part(0, from), part(1, to));
             let steep = if from.min(to) < NEAR { STEEP } else { 1.0 };
             let bound = steep * turn;
             // A comparison that is false for NaN as well.
@@ -219,7 +224,7 @@ impl Search<'_> {
             if (time - best.0).abs() * slope.max(pace) <= exact.0.max(exact.1 * root) {
                 return Some(Dip { joint, time, root, slope, pace });
             }
-            self.sample(time, place);
+            self.probe(time, place);
             let square = self.square(joint, place);
             let worst = (0..3).fold(0, |worst, k| if points[k].1 > points[worst].1 { k } else { worst });
             let better = square < points[worst].1;
@@ -238,7 +243,7 @@ impl Search<'_> {
         let beside = (EXACT.0.max(dip.root) / dip.slope).min(FINEST / dip.pace);
         let place = self.samples.len() - 1;
         let points = [-beside, 0.0, beside].map(|apart| {
-            self.sample(dip.time + apart, place);
+            self.probe(dip.time + apart, place);
             (dip.time + apart, self.square(dip.joint, place))
         });
         let range = (start.min(dip.time - beside), end.max(dip.time + beside));
