@@ -72,7 +72,7 @@ fn the_linkage_of_sarrus_passes_its_flat_positions() {
     let joints = ["x1", "x2", "x3", "y1", "y2", "y3"];
     passes(
         &problem("sarrus/passages.json"),
-        &[Taylor, Dop853, Dopri5, Radau],
+        &[Taylor, Dop853, Dopri5, Ode45, Radau],
         &exact,
         &joints,
         |tolerance| 5e-8 + 10.0 * tolerance,
