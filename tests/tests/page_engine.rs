@@ -98,9 +98,11 @@ fn numbers(value: &Value) -> Vec<f64> {
 /// The largest distance of two lists of points, and the largest number among them.
 fn distance(one: &Value, other: &Value) -> (f64, f64) {
     let (one, other) = (numbers(one), numbers(other));
-    assert_eq!(one.len(), other.len());
-    let apart = one.iter().zip(&other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    (apart * f64::sqrt(3.0), one.iter().map(|x| x.abs()).fold(1.0, f64::max))
+    assert_eq!((one.len(), one.len() % 3), (other.len(), 0));
+    let between =
+        |(a, b): (&[f64], &[f64])| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+    let apart = one.chunks(3).zip(other.chunks(3)).map(between).fold(0.0, f64::max);
+    (apart, one.iter().map(|x| x.abs()).fold(1.0, f64::max))
 }
 
 #[test]

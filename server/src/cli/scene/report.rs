@@ -12,7 +12,7 @@ use crate::cli::terminal::{print_json, print_line};
 use crate::problem::Problem;
 
 /// Most joints that are named at singular positions.
-const NAMES: usize = 6;
+const NAMES: usize = 8;
 
 /// What is known of a run besides its own state.
 pub(super) struct Found<'a> {
