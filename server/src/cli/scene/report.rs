@@ -64,9 +64,13 @@ pub(super) fn report(
     // Without a step the figures would be those of the start.
     if stopped.is_none() || summary.steps > 0 {
         say(&accuracy(&summary, reactions));
-        figures(&summary, verified).iter().for_each(|line| say(line));
+        for line in figures(&summary, verified) {
+            say(&line);
+        }
     }
-    notes.iter().for_each(|note| say(&format!("  note                   {note}")));
+    for note in &notes {
+        say(&format!("  note                   {note}"));
+    }
     say(&clock.line());
     for event in simulation.events() {
         let end = if event.stop { "; the run ends there" } else { "" };
