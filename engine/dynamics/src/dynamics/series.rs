@@ -41,7 +41,7 @@ use crate::dynamics::elimination::{Counters, LOST, NEAR_SINGULAR, REGULARIZATION
 use crate::model::BodyRef;
 use crate::system::System;
 use bodies::{Bodies, Bundle, FeatureSlot, LanePlace, Planar};
-use constraints::{Angles, NOWHERE, Points, Prescribed, Rows, Schur};
+use constraints::{Angles, JointPoints, NOWHERE, Prescribed, Rows, Schur};
 use lanes::LaneVector;
 use layout::bundles;
 use loads::Loads;
@@ -74,7 +74,7 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     forces: Vec<LaneVector<L>>,
     /// Constant values of the ground's features.
     ground: Vec<LaneVector<L>>,
-    points: Points<L>,
+    points: JointPoints<L>,
     rows: Rows<L>,
     angles: Angles,
     prescribed: Prescribed,
@@ -145,7 +145,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let all = moving + ground.len();
         slots.shrink_to_fit();
         let schur = Schur::new(system, &place, L, B::TWIST);
-        let points = Points::new(system, &bundles, &slots, &place, &schur.factor);
+        let points = JointPoints::new(system, &bundles, &slots, &place, &schur.factor);
         let rows = Rows::new(system, &place, nowhere, &schur.factor, stride);
         let angles = Angles::new(system, &place, &schur.factor, stride, turns);
         let prescribed = Prescribed::new(system, &place, &schur.factor, L, stride);

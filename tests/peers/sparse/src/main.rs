@@ -14,7 +14,7 @@ use faer::sparse::linalg::lu::{LuSymbolicParams, NumericLu, factorize_symbolic_l
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Par, Side};
 use std::time::Instant;
-use triad_engine::reactions::matrices::{self, Part};
+use triad_engine::reactions::matrices::{self, EntryKind};
 use triad_engine::constraints::mechanism::Mechanism;
 use triad_engine::model::Model;
 use triad_linalg::BlockCholesky;
@@ -65,7 +65,7 @@ fn matrix(name: &str) -> (Vec<(usize, usize, f64)>, Vec<usize>) {
     mechanism.set_state(0.0, &y);
     let mut entries = Vec::new();
     for place in matrices::schur(&mechanism.system, &mechanism.state, &mut mechanism.elimination).places {
-        if place.part != Part::Fill {
+        if place.part != EntryKind::Fill {
             let shift = if redundant && place.row == place.column { 1.0 + 1e-9 } else { 1.0 };
             entries.push((place.row, place.column, place.value * shift));
         }

@@ -13,7 +13,7 @@ mod terms;
 mod schur;
 
 pub use angles::{AngleSeries, Angles};
-pub use points::{NOWHERE, Points};
+pub use points::{JointPoints, NOWHERE};
 pub use prescribed::Prescribed;
 pub use rows::Rows;
 pub use schur::Schur;

@@ -24,7 +24,7 @@ struct PointSlot<const L: usize> {
 
 /// All points of bodies that are held at other points.
 #[derive(Clone, Debug)]
-pub struct Points<const L: usize> {
+pub struct JointPoints<const L: usize> {
     slots: Vec<PointSlot<L>>,
     /// Those of each bundle.
     of_bundle: Vec<Range<usize>>,
@@ -39,7 +39,7 @@ pub fn holds_points(system: &System, form: &Form) -> bool {
     matches!(form, Form::Coincidence { a, b } if fixed(*a) && fixed(*b))
 }
 
-impl<const L: usize> Points<L> {
+impl<const L: usize> JointPoints<L> {
     /// Of a system; `place` tells where features stand, and `factor` where solver rows do.
     pub fn new<B: Bodies<L>>(
         system: &System,

@@ -46,7 +46,7 @@ pub struct Product<const L: usize> {
 #[derive(Clone, Debug)]
 pub struct Rows<const L: usize> {
     coincidences: Vec<Coincidence>,
-    /// Those that [`super::Points`] do not see to.
+    /// Those that [`super::JointPoints`] do not see to.
     driven: Vec<Coincidence>,
     /// Rows of common vectors.
     pub commons: Vec<CommonVector>,
