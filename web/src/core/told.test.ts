@@ -15,6 +15,14 @@ const german = (sentence: string): string | undefined => translated(sentence, fo
 const ELSEWHERE =
   /^(?:unknown (?:field|variant)|invalid (?:type|length|value)|duplicate field|trailing comma|EOF while|\{path\} \(line \{line\}\)|Expected |Unexpected |Unterminated |Bad |No number)/;
 
+it("parts names that are made of its own words in one way, the first place the shortest", () => {
+  const own = formsOf({ "{a} at {b} at {c}.": "{c}|{b}|{a}" });
+  expect(translated("x at y at z.", own)).toBe("z|y|x");
+  expect(translated(" at  at  at  at .", own)).toBe(" at  at ||");
+  expect(translated("x at y at z", own)).toBeUndefined();
+  expect(translated("x at .", own)).toBeUndefined();
+});
+
 describe("what the server says", () => {
   it("is said in German with its values", () => {
     expect(german('joint "pin": there is no body "bobb"')).toBe("Gelenk „pin“: Es gibt keinen Körper „bobb“");

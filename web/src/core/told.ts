@@ -5,7 +5,8 @@ import { language } from "./texts";
 
 /** A sentence with places for values, and what it is in the other language. */
 interface Form {
-  matches: RegExp;
+  /** Its words between the places, the first and the last included. */
+  parts: string[];
   /** Its longest words without a place: what lacks these is not tried. */
   words: string;
   names: string[];
@@ -20,7 +21,24 @@ const PLACE = /\{(\w+)\}/;
 /** Places in which sentences stand, which are told in the same language or not at all. */
 const SENTENCES = new Set(["reason", "cause"]);
 
-const escaped = (text: string): string => text.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
+/** What stands in the places between words, each as short as can be; undefined where the sentence is another one. One way through:
+ * names from a scene may be made of the words of a form, and an expression would try all the ways to part them. */
+function valuesOf(sentence: string, parts: string[]): string[] | undefined {
+  const [first = "", ...others] = parts;
+  const last = others.pop();
+  if (last === undefined) return sentence === first ? [] : undefined;
+  if (!sentence.startsWith(first)) return undefined;
+  const values: string[] = [];
+  let at = first.length;
+  for (const part of others) {
+    const next = sentence.indexOf(part, at);
+    if (next < 0) return undefined;
+    values.push(sentence.slice(at, next));
+    at = next + part.length;
+  }
+  const end = sentence.length - last.length;
+  return end >= at && sentence.endsWith(last) ? [...values, sentence.slice(at, end)] : undefined;
+}
 
 /** Forms of a catalogue, the most telling first. */
 export function formsOf(catalogue: Record<string, string>): Form[] {
@@ -28,9 +46,8 @@ export function formsOf(catalogue: Record<string, string>): Form[] {
     .map(([sentence, said]) => {
       const parts = sentence.split(PLACE);
       const words = parts.filter((_, k) => k % 2 === 0);
-      const pattern = parts.map((part, k) => (k % 2 === 0 ? escaped(part) : "([^]*?)")).join("");
       return {
-        matches: new RegExp(`^${pattern}$`),
+        parts: words,
         words: words.reduce((long, part) => (part.length > long.length ? part : long), ""),
         names: parts.filter((_, k) => k % 2 === 1),
         said,
@@ -45,7 +62,7 @@ export function translated(sentence: string, forms: Form[], depth = DEEPEST): st
   if (sentence.length > LONGEST || depth === 0) return undefined;
   for (const form of forms) {
     if (!sentence.includes(form.words)) continue;
-    const values = form.matches.exec(sentence)?.slice(1);
+    const values = valuesOf(sentence, form.parts);
     if (!values) continue;
     const told = values.map((value, k) =>
       SENTENCES.has(form.names[k] ?? "") ? translated(value, forms, depth - 1) : value,
