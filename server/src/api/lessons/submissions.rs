@@ -30,7 +30,7 @@ use crate::app::App;
 use crate::blocking;
 use crate::grades::{Book, assigned};
 use crate::handing::{self, Judged, Who};
-use crate::policy::{Moment, Policy, When};
+use crate::policy::{Moment, When};
 use crate::problem::Problem;
 use crate::request;
 use crate::store::{
@@ -91,28 +91,7 @@ async fn submit(
         },
     };
     let status = if kept.1["gradable"] == true { StatusCode::CREATED } else { StatusCode::OK };
-    Ok((status, Answer(told(&app, lesson, policy, person, kept).await?)).into_response())
-}
-
-/// What a student is told of a verdict, with the seed of its numbers.
-pub(super) async fn told(
-    app: &App,
-    lesson: Lesson,
-    policy: Policy,
-    person: Option<String>,
-    (seed, mut verdict): (String, Value),
-) -> Result<GradedSubmission, Problem> {
-    let revealed = told::revealed(app, person.as_deref(), &lesson).await?;
-    let (variants, is_alone) = (Arc::clone(&app.variants), !app.access.is_class());
-    blocking(move || {
-        let own = variants.of(&lesson, &seed)?;
-        told::tell(&own, &policy, revealed, &mut verdict)?;
-        if is_alone {
-            told::compare(&own, &mut verdict);
-        }
-        serde_json::from_value(verdict).map_err(Problem::internal)
-    })
-    .await
+    Ok((status, Answer(told::graded(&app, lesson, policy, person, kept).await?)).into_response())
 }
 
 /// What the numbers of a verdict were drawn from: the class knows it, at home the verdict tells it.

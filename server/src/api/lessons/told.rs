@@ -1,11 +1,14 @@
 //! What of a verdict its student is told.
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use triad_lessons::{Lesson, Mark, Verdict};
 
 use crate::app::App;
+use crate::blocking;
 use crate::grades::{Book, Entry, Marked};
 use crate::policy::{Moment, Policy, Revealed, When};
 use crate::problem::Problem;
@@ -179,4 +182,25 @@ pub(in crate::api) async fn revealed(
     let Some(person) = person.filter(|_| app.access.is_class()) else { return Ok(Revealed::ALL) };
     let book = Book::open(&app.store, CLASS, Some(person), Some(&lesson.slug)).await?;
     Ok(book.standing(person, lesson, Moment::now()).turn.revealed)
+}
+
+/// What a student is told of a verdict, with the seed of its numbers.
+pub(super) async fn graded(
+    app: &App,
+    lesson: Lesson,
+    policy: Policy,
+    person: Option<String>,
+    (seed, mut verdict): (String, Value),
+) -> Result<GradedSubmission, Problem> {
+    let revealed = revealed(app, person.as_deref(), &lesson).await?;
+    let (variants, is_alone) = (Arc::clone(&app.variants), !app.access.is_class());
+    blocking(move || {
+        let own = variants.of(&lesson, &seed)?;
+        tell(&own, &policy, revealed, &mut verdict)?;
+        if is_alone {
+            compare(&own, &mut verdict);
+        }
+        serde_json::from_value(verdict).map_err(Problem::internal)
+    })
+    .await
 }

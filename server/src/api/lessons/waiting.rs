@@ -15,12 +15,11 @@ use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::submissions::told;
 use crate::api::describe::{PROBLEM, Schemas, of};
 use crate::api::extract::{PathParameters, QueryParameters};
 use crate::api::guard::Caller;
 use crate::api::lessons;
-use crate::api::lessons::told::GradedSubmission;
+use crate::api::lessons::told::{self, GradedSubmission};
 use crate::app::App;
 use crate::grades::assigned;
 use crate::problem::Problem;
@@ -99,6 +98,6 @@ async fn state(
     let lesson = assigned(lessons::find(&app, &kept.lesson)?, &policy);
     let own = kept.verdict["provenance"]["seed"].as_str().unwrap_or_default().to_owned();
     let seed = member.as_ref().map_or(own, |member| app.access.seed_of(member));
-    let verdict = told(&app, lesson, policy, Some(person), (seed, kept.verdict)).await?;
+    let verdict = told::graded(&app, lesson, policy, Some(person), (seed, kept.verdict)).await?;
     Ok(Answer(SubmissionState { id, state: "graded", before: None, verdict: Some(verdict) }))
 }
