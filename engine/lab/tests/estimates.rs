@@ -83,11 +83,18 @@ fn a_long_run_is_not_silent() {
     assert!(summary.error.is_none_or(|error| error.position > 0.01));
 }
 
-/// What is left out of an error that is carried along adds up with the time: of hundreds of steps it must not make another error.
+/// What is left out of an error that is carried along adds up with the time: of hundreds of steps it must not make another error, least of
+/// all at loose tolerances, where only the energy tells it.
 #[test]
 fn the_estimate_of_a_long_run_is_as_good() {
-    for (name, duration) in [("simple-pendulum", 150.0), ("spatial-slider-crank", 24.0)] {
-        let scene = catalogue::scene(name).unwrap().duration(duration).tolerance(1e-8);
+    for (name, duration, tolerance) in [
+        ("simple-pendulum", 150.0, 1e-8),
+        ("simple-pendulum", 300.0, 1e-6),
+        ("simple-pendulum", 120.0, 1e-5),
+        ("spatial-slider-crank", 24.0, 1e-8),
+        ("n-four-bar:2", 40.0, 1e-8),
+    ] {
+        let scene = catalogue::scene(name).unwrap().duration(duration).tolerance(tolerance);
         let judged = judge(&scene).unwrap();
         let good = judged.iter().filter(|one| one.is_good()).count();
         assert!(judged.len() >= 15 && 100 * good >= 90 * judged.len(), "{name}: {good} of {judged:?}");

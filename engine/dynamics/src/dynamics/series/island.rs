@@ -98,8 +98,8 @@ impl IslandSeries {
     }
 
     /// From now on carries the error along.
-    pub fn carry_errors(&mut self) {
-        with!(&mut self.0, s => s.carry_errors());
+    pub fn carry_errors(&mut self, system: &System) {
+        with!(&mut self.0, s => s.carry_errors(system));
     }
 
     /// When the error became too large to be carried, s.

@@ -6,11 +6,14 @@
 
 mod differences;
 
+mod energy;
+
 use super::step::Part;
 use super::{Bodies, Series};
 use crate::newton::Projectable;
 use crate::system::System;
 use differences::{Between, Differ, Missed, Size, moved, moved_both, value};
+use energy::Energy;
 use pulp::Arch;
 use std::mem::swap;
 use triad_linalg::larger;
@@ -63,14 +66,16 @@ pub(super) struct Transport<const L: usize, B: Bodies<L>> {
     factored: [Vec<B::Natural>; 2],
     /// Solutions that the evaluation at the end of the step took, as long as the twin has it and the next step can begin with it.
     evaluated: Option<u64>,
+    /// What the energy is, where it stays that.
+    energy: Option<Energy<L, B>>,
     /// When the error became too large to be carried, s.
     lost: Option<f64>,
 }
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// From now on carries the error along.
-    pub fn carry_errors(&mut self) {
-        self.transport = Some(Box::new(Transport::new(self)));
+    pub fn carry_errors(&mut self, system: &System) {
+        self.transport = Some(Box::new(Transport::new(system, self)));
     }
 
     /// When the error became too large to be carried, s.
@@ -131,7 +136,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 }
 
 impl<const L: usize, B: Bodies<L>> Transport<L, B> {
-    fn new(series: &Series<L, B>) -> Self {
+    fn new(system: &System, series: &Series<L, B>) -> Self {
         let count = series.bundles.len();
         let nothing = vec![[B::zero(); 2]; count];
         let positions: Vec<B::Natural> = series.state.iter().map(|state| state[0]).collect();
@@ -150,6 +155,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             step: (0, 0.0),
             factored: [positions.clone(), positions],
             evaluated: None,
+            energy: Energy::of(system, series),
             lost: None,
         }
     }
@@ -308,7 +314,10 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             self.close(series, s, NEAR * length);
         }
         self.twin.call(Part::Correct(1));
-        let Self { twin, error, .. } = self;
+        let Self { twin, error, energy, .. } = self;
+        if let Some(energy) = energy {
+            energy.give(twin, &series.state, s, self.step.1);
+        }
         self.size =
             Arch::new().dispatch(Between::<L, B> { here: &series.state, there: &twin.state, s, out: error });
     }

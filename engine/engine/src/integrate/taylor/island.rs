@@ -99,7 +99,7 @@ impl IslandStepper {
             series.enable_probes(&violation::row_sizes(flat.as_ref().unwrap_or(system)));
         }
         if whole.model.settings.error_estimate {
-            series.carry_errors();
+            series.carry_errors(solved);
         }
         series.linearize();
         let tolerance = if redundant { tolerance.max(MIN_TOLERANCE_REDUNDANT) } else { tolerance };

@@ -207,6 +207,29 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
         }
     }
 
+    #[inline(always)]
+    fn twice_kinetic(&self, rate: &Natural<L>) -> Lane<L> {
+        let mut twice = dot(&rate[0], &rate[0]);
+        for l in 0..L {
+            twice[l] /= self.inverse_mass[l];
+        }
+        for k in 0..3 {
+            twice = plus(&self.ibar[k], &dot(&rate[1 + k], &rate[1 + k]), &twice);
+        }
+        twice
+    }
+
+    #[inline(always)]
+    fn work_of_weight(&self, from: &Natural<L>, to: &Natural<L>) -> Lane<L> {
+        let mut way = to[0];
+        for (way, from) in way.iter_mut().zip(&from[0]) {
+            for l in 0..L {
+                way[l] -= from[l];
+            }
+        }
+        dot(&self.weight, &way)
+    }
+
     /// Dual basis and inertia at the position q.
     #[inline(always)]
     fn linearize(&mut self, q: &Natural<L>) {

@@ -88,6 +88,10 @@ pub trait Bodies<const L: usize>: Points<L> + Clone + Debug + Sized {
     /// Adds a moment on a body.
     fn add_moment(&mut self, lane: usize, moment: &Vector3<f64>);
 
+    /// Twice the kinetic energy at these rates: Σ m ṙ² + Ī ė².
+    fn twice_kinetic(&self, rate: &Self::Natural) -> Lane<L>;
+    /// Work of the weight on the way from one position to another.
+    fn work_of_weight(&self, from: &Self::Natural, to: &Self::Natural) -> Lane<L>;
     /// Dual basis and inertia at the position q.
     fn linearize(&mut self, q: &Self::Natural);
     /// C⁻¹ s̃ of a feature's arm s.

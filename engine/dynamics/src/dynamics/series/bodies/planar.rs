@@ -230,6 +230,19 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
+    fn twice_kinetic(&self, [r, z]: &[Pair<L>; 2]) -> Lane<L> {
+        each(|l| {
+            let [straight, turning] = [r, z].map(|rate| rate[0][l] * rate[0][l] + rate[1][l] * rate[1][l]);
+            self.mass[l] * straight + self.inertia[l] * turning
+        })
+    }
+
+    #[inline(always)]
+    fn work_of_weight(&self, from: &[Pair<L>; 2], to: &[Pair<L>; 2]) -> Lane<L> {
+        each(|l| (0..2).map(|c| self.weight[c][l] * (to[0][c][l] - from[0][c][l])).sum())
+    }
+
+    #[inline(always)]
     fn linearize(&mut self, q: &[Pair<L>; 2]) {
         let z = &q[1];
         self.arm = turned(&self.pivot, z);

@@ -1,0 +1,86 @@
+//! What the energy tells of an error, where it stays what it is — eq. (11.13).
+//!
+//! The motion without its error has the energy of the start. What an error has of it otherwise is an error of the estimate, and the
+//! one that grows: it changes the pace.
+
+use crate::dynamics::series::lanes::Lane;
+use crate::dynamics::series::{Bodies, Series};
+use crate::system::System;
+use pulp::{Arch, Simd, WithSimd};
+
+/// Part of the velocities above which a change of them is not made: the energy tells nothing of mechanisms that hardly move.
+const SMALL: f64 = 0.05;
+
+/// The energy that the motion has.
+#[derive(Clone, Debug)]
+pub(super) struct Energy<const L: usize, B: Bodies<L>> {
+    /// Where bodies were at the start: heights are measured from there.
+    start: Vec<B::Natural>,
+    /// That at the start, J.
+    kept: f64,
+}
+
+impl<const L: usize, B: Bodies<L>> Energy<L, B> {
+    /// That of the present state, of a system in which only weight does work.
+    pub fn of(system: &System, series: &Series<L, B>) -> Option<Self> {
+        let only_weight = system.is_conservative() && system.loads.is_empty();
+        only_weight.then(|| {
+            let start: Vec<B::Natural> = series.state.iter().map(|state| state[0]).collect();
+            let measured = Measured { series, start: &start, state: &series.state };
+            let [twice, _, fallen] = Arch::new().dispatch(measured);
+            Self { start, kept: 0.5 * twice - fallen }
+        })
+    }
+
+    /// Gives the velocities of the twin the energy that the motion without the s-th part of its error has; `h` is the last step.
+    /// They keep their direction, and with it what joints demand. Of all states with that energy the nearest differs in its position
+    /// too, by the accelerations at hand in the time h: that part is left.
+    pub fn give(&self, twin: &mut Series<L, B>, here: &[[B::Natural; 2]], s: f64, h: f64) {
+        let measure = |state| Arch::new().dispatch(Measured { series: twin, start: &self.start, state });
+        let [twice, accelerations, fallen] = measure(&twin.state);
+        let mut wanted = self.kept;
+        if s < 1.0 {
+            let [twice, _, fallen] = measure(here);
+            wanted = s * wanted + (1.0 - s) * (0.5 * twice - fallen);
+        }
+        let part = (0.5 * twice - fallen - wanted) / (twice + h * h * accelerations);
+        if part.abs() < SMALL * s {
+            for [_, rate] in &mut twin.state {
+                for x in B::lanes_mut(rate).as_flattened_mut() {
+                    *x -= part * *x;
+                }
+            }
+        }
+    }
+}
+
+/// Twice the kinetic energy of a state, the same of the accelerations at hand in place of its velocities, and the work of the weight
+/// since the start, J, to be compiled for each set of vector instructions.
+struct Measured<'a, const L: usize, B: Bodies<L>> {
+    series: &'a Series<L, B>,
+    start: &'a [B::Natural],
+    state: &'a [[B::Natural; 2]],
+}
+
+impl<const L: usize, B: Bodies<L>> WithSimd for Measured<'_, L, B> {
+    type Output = [f64; 3];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> [f64; 3] {
+        let Self { series, start, state } = self;
+        let mut sums = [[0.0; L]; 3];
+        for (b, (bundle, [position, rate])) in series.bundles.iter().zip(state).enumerate() {
+            // Coefficients of order two are halves of accelerations.
+            let half = bundle.twice_kinetic(&series.q[b * series.stride + 2]);
+            let found: [Lane<L>; 3] =
+                [bundle.twice_kinetic(rate), half, bundle.work_of_weight(&start[b], position)];
+            for (sum, found) in sums.iter_mut().zip(&found) {
+                for l in 0..L {
+                    sum[l] += found[l];
+                }
+            }
+        }
+        let [twice, half, fallen] = sums.map(|lanes| lanes.into_iter().sum::<f64>());
+        [twice, 4.0 * half, fallen]
+    }
+}
