@@ -6,6 +6,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // a test that cannot go on says so
 
+use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -14,6 +15,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use triad_engine::catalogue;
 use triad_engine::scene::{ConstraintMethod, Coordinates, IntegratorKind, OutputKind, Scene};
 use triad_tests::options::{commands, faults, options};
+use triad_tests::program::run;
 use triad_tests::root;
 
 /// Time that runs of one call cover, s: some steps of each integrator.
@@ -287,4 +289,86 @@ fn every_call_is_answered_or_refused_with_a_reason_and_a_remedy() {
     let mut found = found.into_inner().unwrap();
     found.sort();
     assert!(found.is_empty(), "{} of {} calls:\n{}", found.len(), all.len(), found.join("\n"));
+}
+
+/// What a call said to people, with its exit code.
+fn said(line: &[&str]) -> (Option<i32>, String) {
+    let done = run(line);
+    let text =
+        [&done.stdout, &done.stderr].map(|stream| String::from_utf8_lossy(stream).into_owned()).concat();
+    (done.status.code(), text)
+}
+
+#[test]
+fn what_is_asked_for_is_done_refused_or_told_to_change_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let mut stiff: Value = serde_json::to_value(catalogue::scene("simple-pendulum").unwrap()).unwrap();
+    stiff["simulation"]["stabilization"] = json!({"kind": "baumgarte", "alpha": 5, "beta": 5});
+    fs::write(file("baumgarte.json"), stiff.to_string()).unwrap();
+    let robot = fs::read_to_string(root().join("tests/data/problems/mimic/mimic.urdf")).unwrap();
+    fs::write(file("robot.urdf"), robot.replace("joint=\"lead\"", "joint=\"led\"")).unwrap();
+    fs::write(file("side.json"), r#"{"positons": {"lead": 1}}"#).unwrap();
+    let mut driven: Value = serde_json::to_value(catalogue::scene("crank-rocker").unwrap()).unwrap();
+    driven["drivers"][0]["motion"] = json!({"kind": "ramp", "start": 2.5, "rate": 5});
+    fs::write(file("driven.json"), driven.to_string()).unwrap();
+    let pendulum = "simple-pendulum";
+    let vary = "/bodies/0/mass=1:2:2";
+    let cases: [(&[&str], i32, &str); 19] = [
+        (&["reactions", pendulum, "--at", "11"], 3, "which goes from 0 s to 10 s"),
+        (&["reactions", pendulum, "--at", "nan"], 3, "which goes from 0 s to 10 s"),
+        (&["reactions", pendulum, "--at", "-1"], 3, "which goes from 0 s to 10 s"),
+        (&["run", pendulum, "--until", "-1"], 3, "-1 is not between"),
+        (&["run", pendulum, "--until", "0.1", "--outputs", "joints"], 0, "without --out it changes nothing"),
+        (&["run", pendulum, "--until", "0.1", "--every", "0.1"], 0, "where nothing is written"),
+        (
+            &["run", pendulum, "--no-estimate", "--outputs", "errors", "--out", &file("a.csv")],
+            3,
+            "[no-errors]",
+        ),
+        (&["sweep", pendulum, "--vary", vary, "--no-estimate", "--outputs", "errors"], 3, "[no-errors]"),
+        (&["sweep", pendulum, "--vary", vary, "--samples", "5"], 3, "none of the numbers is drawn"),
+        (&["sweep", pendulum, "--vary", vary, "--vary", "mass=1:3:2"], 3, "is varied twice"),
+        (
+            &["sweep", &file("baumgarte.json"), "--vary", vary, "--integrator", "taylor"],
+            3,
+            "[choices-conflict]",
+        ),
+        (&["bench", pendulum, "--tolerances", "0", "--out", &file("b")], 2, "not between 1e-14 and 0.1"),
+        (
+            &["bench", pendulum, "--integrators", "taylor", "--treatment", "penalty", "--out", &file("b")],
+            3,
+            "it would run by dop853",
+        ),
+        (
+            &["bench", pendulum, "--integrators", "trapezoidal", "--out", &file("b")],
+            3,
+            "augmented Lagrangian alone",
+        ),
+        (&["import", &file("robot.urdf")], 0, "<mimic> of led: there is no such joint"),
+        (&["import", &file("robot.urdf"), "--with", &file("side.json")], 3, "the side-car could not be read"),
+        (&["check", &file("driven.json")], 3, "driver \"motor\" is open at the start"),
+        (&["check", &file("driven.json")], 3, "Let the driver begin where"),
+        (&["modes", "governor", "--steady"], 0, "where the bodies stand in it"),
+    ];
+    let wrong: Vec<String> = cases
+        .iter()
+        .map(|(line, code, words)| (line, code, words, said(line)))
+        .filter(|(_, code, words, (found, text))| *found != Some(**code) || !text.contains(**words))
+        .map(|(line, .., (found, text))| format!("triad {}: {found:?}\n{text}", line.join(" ")))
+        .collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn slow_decays_are_printed_with_their_digits_and_shapes_with_their_scale() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("slow.json").to_string_lossy().into_owned();
+    let sliding = r#"{"name": "slow", "gravity": [0, 0, 0], "bodies": [{"name": "a", "mass": 1}], "joints": [{"name": "p",
+        "type": "prismatic", "body_i": "ground", "body_j": "a", "point": [0, 0, 0], "axis": [1, 0, 0]}], "loads": [{"name": "s",
+        "type": "slider", "joint": "p", "stiffness": 2, "damping": 4e9}]}"#;
+    fs::write(&path, sliding).unwrap();
+    let (code, text) = said(&["modes", &path]);
+    assert!(code == Some(0) && text.contains("growth -5.000000e-10 1/s"), "{text}");
+    assert!(text.contains("shapes: the largest component"), "{text}");
 }

@@ -11,12 +11,14 @@ mod wanted;
 mod assembly;
 mod equilibrium;
 mod flow;
+mod idle;
 mod kinematics;
 mod modes;
 mod stage;
 
 pub use assembly::{Assembly, Placement, assemble, assemble_if};
 pub use equilibrium::{Equilibrium, equilibrium, equilibrium_if};
+pub use idle::IdleTurns;
 pub use kinematics::{KinematicState, Kinematics, kinematics, kinematics_if};
 pub use modes::{Mode, ModeShape, Modes, ModesAbout, SteadyMotion, TurnsWithoutInertia, modes, modes_if};
 #[doc(hidden)]
@@ -38,11 +40,16 @@ pub enum AnalysisError {
     /// More degrees of freedom than dense matrices are good for.
     #[error(
         "this analysis takes at most {MAX_FREEDOMS} degrees of freedom, because its work grows with their cube; the scene has \
-         {freedoms}"
+         {freedoms}{}",
+        idle.as_ref().map_or_else(String::new, |idle| format!(
+            ", {} of which are turns of bodies about axes about which they have no inertia, \"{}\" first", idle.turns, idle.body
+        ))
     )]
     TooLarge {
         /// Degrees of freedom of the scene.
         freedoms: usize,
+        /// Those that move nothing with inertia, if there are any.
+        idle: Option<IdleTurns>,
     },
     /// No position without acceleration was reached.
     #[error(
@@ -178,7 +185,12 @@ impl AnalysisError {
     pub fn hint(&self) -> String {
         match self {
             Self::Engine(error) => return error.hint(),
-            Self::TooLarge { .. } => "Analyse a part of the mechanism as a scene of its own.",
+            Self::TooLarge { idle: None, .. } => "Analyse a part of the mechanism as a scene of its own.",
+            Self::TooLarge { idle: Some(_), .. } => {
+                "Take those turns away: in place of points on joints of the kind \"rod\", or of thin rods between spherical joints, \
+                 let thin rods hang on revolute joints where all moves in a plane, on universal joints where it does not. Or \
+                 analyse a part of the mechanism as a scene of its own."
+            }
             Self::NoEquilibrium { .. } => {
                 "Look whether anything holds that body: a body that falls freely has no equilibrium. Otherwise start \
                  nearer to where it comes to rest."

@@ -10,7 +10,7 @@ mod plot;
 mod reference;
 mod report;
 
-pub use measure::{Measured, measure};
+pub use measure::{LeftOut, Measured, measure};
 pub use plan::{BenchCase, BenchPlan, Method, Wish};
 pub use plot::svg;
 pub use report::{by_scene, csv, html, table};

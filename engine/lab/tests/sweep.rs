@@ -143,3 +143,13 @@ fn a_picture_has_a_mark_for_each_run() {
     assert_eq!(picture.matches("<circle").count(), 36);
     assert!(picture.contains("pin.angle_rate, rad/s") && !picture.contains("NaN"), "{picture}");
 }
+
+#[test]
+fn a_plan_whose_runs_would_not_differ_is_refused() {
+    let mass = || Values::Grid { from: 1.0, to: 2.0, count: 3 };
+    let twice = plan(&[("/bodies/0/mass", mass()), ("mass", mass())], 1).count().unwrap_err();
+    assert_eq!(twice.to_string(), "/bodies/0/mass is varied twice, by /bodies/0/mass and by mass");
+    let undrawn = plan(&[("/bodies/0/mass", mass())], 5).count().unwrap_err();
+    assert!(undrawn.to_string().contains("5 samples of each point would be the same run"), "{undrawn}");
+    assert_eq!(plan(&[("/bodies/0/mass", mass())], 1).count(), Ok(3));
+}

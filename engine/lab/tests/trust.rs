@@ -331,6 +331,21 @@ fn what_a_treatment_does_not_survive_is_told() {
     }
 }
 
+/// The pendulum's energy is known: an estimate that has fallen behind is told by it.
+#[test]
+fn an_estimate_that_the_energy_refutes_is_doubted() {
+    for (duration, tolerance) in [(1000.0, 1e-6), (2000.0, 1e-9)] {
+        let scene = catalogue::scene("simple-pendulum").unwrap().duration(duration).tolerance(tolerance);
+        let mut run = Simulation::new(&scene).unwrap();
+        run.advance_to(duration).unwrap();
+        let summary = run.summary();
+        let said = summary.error.unwrap().energy;
+        let doubted =
+            summary.doubts.iter().any(|doubt| doubt.contains("times what the estimate of the errors says"));
+        assert_eq!(doubted, summary.energy_drift.abs() > 5.0 * said, "{said} {summary:?}");
+    }
+}
+
 #[test]
 fn sound_runs_are_not_doubted() {
     for name in ["simple-pendulum", "spatial-double-pendulum", "spatial-slider-crank", "bricard"] {

@@ -81,6 +81,8 @@ impl From<SweepError> for Refusal {
         let (code, hint) = match error {
             SweepError::Engine(error) => return error.into(),
             SweepError::Count { .. } => ("sweep-size", "give grids fewer points, and samples at least 1"),
+            SweepError::Twice { .. } => ("varied-twice", "vary it once"),
+            SweepError::Undrawn { .. } => ("nothing-drawn", "leave samples out, or draw a number at random"),
             SweepError::Threads { .. } => ("threads", "give fewer threads, or leave the option out"),
         };
         Self::new(code, error.to_string(), hint)

@@ -334,7 +334,10 @@ fn add_gears(scene: &mut Scene, robot: &Robot, left_out: &mut Vec<OmittedItem>) 
             let name = format!("{} follows {leader}", joint.name);
             scene.add(Joint::gear(name, leader, &joint.name, *factor));
         } else {
-            let what = format!("<mimic> of {leader}: only turning joints can follow each other");
+            let there = robot.joints.iter().any(|joint| joint.name == *leader);
+            let why =
+                if there { "only turning joints can follow each other" } else { "there is no such joint" };
+            let what = format!("<mimic> of {leader}: {why}");
             left_out.push(OmittedItem { line: joint.line, of: format!("joint {}", joint.name), what });
         }
     }

@@ -64,12 +64,17 @@ async fn whole_body<S: Send + Sync>(request: Request, state: &S, time: Duration)
 
 /// Reads JSON; errors point to the place.
 pub fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Problem> {
+    parse_as("the body", "compare with the request's schema in /api/openapi.json", bytes)
+}
+
+/// The same of something that is no body of a request: what it is, and where to look up what belongs into it.
+pub fn parse_as<T: DeserializeOwned>(what: &str, hint: &'static str, bytes: &[u8]) -> Result<T, Problem> {
     let mut reader = serde_json::Deserializer::from_slice(bytes);
     let value = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
         let pointer: String = error.path().iter().map(segment).collect();
-        invalid(&pointer, error.inner())
+        invalid(what, hint, &pointer, error.inner())
     })?;
-    reader.end().map_err(|error| invalid("", &error))?;
+    reader.end().map_err(|error| invalid(what, hint, "", &error))?;
     Ok(value)
 }
 
@@ -83,21 +88,17 @@ fn segment(segment: &Segment) -> String {
     }
 }
 
-fn invalid(pointer: &str, error: &serde_json::Error) -> Problem {
+fn invalid(what: &str, hint: &'static str, pointer: &str, error: &serde_json::Error) -> Problem {
     use serde_json::error::Category;
     let (status, code, hint) = match error.classify() {
-        Category::Data => (
-            StatusCode::UNPROCESSABLE_ENTITY,
-            "invalid-request",
-            "compare with the request's schema in /api/openapi.json",
-        ),
+        Category::Data => (StatusCode::UNPROCESSABLE_ENTITY, "invalid-request", hint),
         Category::Syntax | Category::Eof | Category::Io => (
             StatusCode::BAD_REQUEST,
             "invalid-json",
             "check the brackets, quotation marks and commas at that place",
         ),
     };
-    Problem::new(status, code, format!("the body could not be read: {error}"), hint)
+    Problem::new(status, code, format!("{what} could not be read: {error}"), hint)
         .at(pointer, error.to_string())
 }
 

@@ -103,7 +103,7 @@ enum Command {
         #[command(flatten)]
         source: Source,
         /// The time in seconds.
-        #[arg(long, default_value_t = 0.0, value_name = "S")]
+        #[arg(long, default_value_t = 0.0, value_name = "S", allow_negative_numbers = true)]
         at: f64,
         #[command(flatten)]
         words: analyses::Words,

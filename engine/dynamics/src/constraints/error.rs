@@ -5,8 +5,9 @@
 pub enum ConstraintError {
     /// No position near the given one satisfies the joints.
     #[error(
-        "the mechanism cannot be assembled near its start: joint \"{joint}\" stays open by {violation:.3e} of the \
+        "the mechanism cannot be assembled near its start: {} \"{joint}\" stays open by {violation:.3e} of the \
          mechanism's size{} (moved by {moved:.3e} m)",
+        joint_or_driver(pointer),
         contradiction(with)
     )]
     Assembly {
@@ -23,8 +24,9 @@ pub enum ConstraintError {
     },
     /// The start can be corrected, but only by moving bodies so far that another start is probably meant.
     #[error(
-        "joint \"{joint}\" is open at the start, and closing all joints would move bodies by {moved:.3e} m, more than \
-         the {limit:.3e} m that count as a correction"
+        "{} \"{joint}\" is open at the start, and closing all joints would move bodies by {moved:.3e} m, more than \
+         the {limit:.3e} m that count as a correction",
+        joint_or_driver(pointer)
     )]
     StartTooFar {
         /// The joint that is open most at the given start.
@@ -96,6 +98,11 @@ pub enum ConstraintError {
     },
 }
 
+/// What stands at a place of the scene.
+fn joint_or_driver(pointer: &str) -> &'static str {
+    if pointer.starts_with("/drivers") { "driver" } else { "joint" }
+}
+
 /// Names in quotes.
 pub fn quoted(names: &[String]) -> String {
     let names: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
@@ -144,6 +151,12 @@ impl ConstraintError {
     /// What to try.
     pub fn hint(&self) -> &'static str {
         match self {
+            Self::Assembly { pointer, .. } | Self::StartTooFar { pointer, .. }
+                if pointer.starts_with("/drivers") =>
+            {
+                "Let the driver begin where the stated positions stand: angles count from those, slides are the distance of the \
+                 joint's points along the axis. Or state the bodies where the driver begins."
+            }
             Self::Assembly { .. } | Self::StartTooFar { .. } => {
                 "Check the points and axes of that joint on both of its bodies, and the positions of the bodies."
             }

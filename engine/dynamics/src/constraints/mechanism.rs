@@ -4,7 +4,7 @@ use crate::constraints::ConstraintError;
 use crate::constraints::changed;
 use crate::constraints::violation;
 use crate::dynamics::elimination::{Accelerations, Elimination, ProjectableState};
-use crate::model::Model;
+use crate::model::{BodyRef, DriverKind, Model};
 use crate::newton::rules::{self, CONSISTENT};
 use crate::newton::{AsWanted, project_positions, project_velocities};
 use crate::ode::OdeSystem;
@@ -12,6 +12,7 @@ use crate::scene::ConstraintMethod;
 use crate::state::{self, State};
 use crate::system::System;
 use crate::system::index::ConstraintId;
+use nalgebra::Vector3;
 
 /// A projection that moves the state by more than this part of the tolerance calls for a new evaluation.
 const NEGLIGIBLE: f64 = 0.1;
@@ -175,6 +176,12 @@ impl Mechanism {
             let (joint, pointer) = (violated.names(&self.system).0, violated.pointer(&self.system));
             return Err(ConstraintError::StartTooFar { joint, pointer, moved, limit });
         }
+        if let Some(driver) = half_turned(&self.system, &self.state, t) {
+            let (joint, pointer) =
+                (self.system[driver].name.clone(), violation::pointer(&self.system, driver));
+            let moved = std::f64::consts::PI * length;
+            return Err(ConstraintError::StartTooFar { joint, pointer, moved, limit });
+        }
         Ok((violated > 1e-9 * length).then(|| {
             format!(
                 "positions violated the constraints by {violated:.3e}; bodies were moved by up to {moved:.3e} onto them"
@@ -253,6 +260,26 @@ impl Mechanism {
             _ => (0.0, 0.0),
         }
     }
+}
+
+/// A driver that asks for an angle half a turn from that of its joint: there as well b is perpendicular to a₂ turned by θ*, and the row
+/// of eq. (5.3) holds.
+fn half_turned(system: &System, state: &State, t: f64) -> Option<ConstraintId> {
+    let model = &system.model;
+    let in_world = |body: BodyRef, local: &Vector3<f64>| match body {
+        BodyRef::Ground => *local,
+        BodyRef::Moving(body) => state.bodies()[body].q.e.iter().zip(local.iter()).map(|(e, x)| e * *x).sum(),
+    };
+    let mut drivers = system.constraint_ids().filter(|&id| system[id].driver);
+    model.drivers.iter().find_map(|driver| {
+        let id = drivers.next()?;
+        let DriverKind::Angle { joint, motion } = &driver.kind else { return None };
+        let joint = &model.joints[*joint];
+        let b = in_world(joint.bodies[1], &joint.cross[1][0]);
+        let [x, y] = joint.cross[0].map(|a| in_world(joint.bodies[0], &a).dot(&b));
+        let asked = motion.at(t)[0];
+        (x * libm::cos(asked) + y * libm::sin(asked) < 0.0).then_some(id)
+    })
 }
 
 /// What rounding makes of differences of these numbers: differences of large numbers are no more exact than the numbers.

@@ -67,6 +67,8 @@ fn close_positions(model: &mut Model, still: &dyn Fn() -> bool) {
     let constant = |value: Option<f64>| value.map(Curve::constant);
     let held = held(model, |start, _| [constant(start.angle), constant(start.slide)]);
     let (mut mechanism, mut y) = Mechanism::from_model(held);
+    // A screw goes on from one turn to the next.
+    mechanism.state.set_revolutions(mechanism.system.start_angles());
     mechanism.set_state(0.0, &y);
     let length = mechanism.system.length.max(1.0);
     if mechanism.state.position_violation(&mechanism.system) <= f64::EPSILON * length {

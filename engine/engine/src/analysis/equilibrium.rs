@@ -88,6 +88,7 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
     let length = stage.mechanism.system.length;
     // What is left over where a further step leads to no numbers.
     let mut last = (0.0, String::new());
+    let mut taken = STEPS;
     for iterations in 0..STEPS {
         stage.wanted.check()?;
         let basis = stage.tangent()?;
@@ -114,6 +115,7 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
             });
         }
         if !residual.is_finite() {
+            taken = iterations;
             break;
         }
         last = (residual, stage.foremost(&(&basis * &along)));
@@ -128,17 +130,20 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
         let there = stage.moved(&(basis * step), scale);
         let open = stage.assemble(there);
         if open.is_nan() || open > 1e-6 {
+            taken = iterations + 1;
             break;
         }
     }
-    let basis = stage.tangent()?;
-    stage.rest();
-    let force = stage.forces();
-    let along = basis.tr_mul(&force);
-    let left = &basis * &along;
-    if along.amax().is_finite() {
-        last = (along.amax(), stage.foremost(&left));
+    if stage.q.iter().all(|x| x.is_finite()) {
+        let basis = stage.tangent()?;
+        stage.rest();
+        let force = stage.forces();
+        let along = basis.tr_mul(&force);
+        let left = &basis * &along;
+        if along.amax().is_finite() {
+            last = (along.amax(), stage.foremost(&left));
+        }
     }
     let (residual, body) = last;
-    Err(AnalysisError::NoEquilibrium { iterations: STEPS, residual, body })
+    Err(AnalysisError::NoEquilibrium { iterations: taken, residual, body })
 }

@@ -1,7 +1,7 @@
 //! A mechanism held at one position, with its small motions.
 
 use super::flow::Flow;
-use super::{AnalysisError, MAX_FREEDOMS, Wanted};
+use super::{AnalysisError, MAX_FREEDOMS, Wanted, idle};
 use crate::error::EngineError;
 use crate::scene::Scene;
 use nalgebra::{DMatrix, DVector, Rotation3, RowDVector, Vector3};
@@ -146,7 +146,7 @@ impl Stage {
     pub fn tangent(&mut self) -> Result<DMatrix<f64>, AnalysisError> {
         let freedoms = self.freedoms();
         if freedoms > MAX_FREEDOMS {
-            return Err(AnalysisError::TooLarge { freedoms });
+            return Err(AnalysisError::TooLarge { freedoms, idle: idle::turns(&mut self.mechanism) });
         }
         Ok(self.geometry.twists())
     }
@@ -280,14 +280,15 @@ impl Stage {
     }
 
     /// What resists motions along a basis at any speed, as rows: of each damped load its unit force, of length one, and the
-    /// gyroscopic matrix relative to its largest entry. What none of them feels goes on for ever, however strong the others are.
+    /// gyroscopic matrix relative to the largest sum of what bodies contribute to an entry, since they cancel where nothing
+    /// resists. What none of them feels goes on for ever, however strong the others are.
     pub fn resistance(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
         let mut rows: Vec<RowDVector<f64>> = Vec::new();
         self.for_damped(|_, unit| rows.push(basis.tr_mul(&(unit / unit.norm())).transpose()));
-        let gyroscopic = self.gyroscopic(basis);
-        let largest = gyroscopic.amax();
+        let wrenches = self.gyroscopic_wrenches(basis);
+        let largest = basis.abs().tr_mul(&wrenches.abs()).amax();
         if largest > 0.0 {
-            rows.extend(gyroscopic.row_iter().map(|row| row / largest));
+            rows.extend(basis.tr_mul(&wrenches).row_iter().map(|row| row / largest));
         }
         if rows.is_empty() { DMatrix::zeros(0, basis.ncols()) } else { DMatrix::from_rows(&rows) }
     }
@@ -308,9 +309,14 @@ impl Stage {
         }
     }
 
-    /// −∂(forces of inertia of the steady motion)/∂(velocity) along a basis: they are quadratic, so that differences are exact.
+    /// −∂(forces of inertia of the steady motion)/∂(velocity) along a basis.
     pub fn gyroscopic(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut out = DMatrix::zeros(basis.ncols(), basis.ncols());
+        basis.tr_mul(&self.gyroscopic_wrenches(basis))
+    }
+
+    /// The same as wrenches body by body, a column for each motion: they are quadratic, so that differences are exact.
+    fn gyroscopic_wrenches(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut out = DMatrix::zeros(basis.nrows(), basis.ncols());
         if self.flow.is_rest() {
             return out;
         }
@@ -327,7 +333,7 @@ impl Stage {
                     },
                 );
             }
-            out.set_column(k, &basis.tr_mul(&change));
+            out.set_column(k, &change);
         }
         out
     }

@@ -103,6 +103,7 @@ impl Simulation {
         self.singularities.reset(&mut self.mechanism);
         self.before_branching = None;
         self.mechanism.set_state(time, y);
+        self.mechanism.state.commit_revolutions();
         self.companion = Companion::start(self.kind, &self.mechanism, time, y);
         self.integrator = Integrator::start(self.kind, &mut self.mechanism, time, y);
         self.set_current(time, y);

@@ -77,6 +77,8 @@ impl Simulation {
         mut notes: Vec<String>,
     ) -> Result<Self, EngineError> {
         mechanism.set_state(0.0, &start);
+        // From where the joints were closed, not from what was given of them: the first step may be half a turn from there.
+        mechanism.state.commit_revolutions();
         let state = &mechanism.state;
         let (current, start_energy) = (CachedState::new(0.0, &start, state), state.energy(&mechanism.system));
         check_loads(&mechanism)?;

@@ -9,6 +9,7 @@ use triad_engine::analysis::{
 };
 use triad_engine::catalogue;
 use triad_engine::reactions::report::{Convention, ExpressedIn};
+use triad_engine::run::Simulation;
 use triad_engine::scene::{Coordinates, Driver, Motion, Scene};
 
 fn near(a: f64, b: f64, tolerance: f64, what: &str) {
@@ -315,4 +316,79 @@ fn assembly_tells_which_joints_do_not_keep_lengths() {
     // One joint of a body leaves no length open.
     assert_eq!(notes(&local), Vec::<String>::new());
     assert_eq!(notes(&catalogue::scene("simple-pendulum").unwrap()), Vec::<String>::new());
+}
+
+/// The row of a driven angle holds half a turn away as well: such a start would drive everything the wrong way round.
+#[test]
+fn a_driver_that_begins_half_a_turn_from_the_bodies_is_refused() {
+    let started = |angle: f64| {
+        let text = format!(
+            r#"{{"name": "crank", "gravity": [0, 0, 0], "bodies": [{{"name": "crank", "mass": 1, "center_of_mass": [0.5, 0, 0],
+                "inertia": {{"principal": [0.01, 0.02, 0.02]}}}}], "joints": [{{"name": "pin", "type": "revolute", "body_i": "ground",
+                "body_j": "crank", "point": [0, 0, 0], "axis": [0, 0, 1]}}], "drivers": [{{"type": "angle", "name": "motor",
+                "joint": "pin", "motion": {{"kind": "ramp", "start": {angle}, "rate": 1}}}}]}}"#
+        );
+        Simulation::new(&Scene::from_json(&text).unwrap()).map(|run| run.frame().bodies[0].u)
+    };
+    for near in [0.1, -0.1, 6.2, 12.5] {
+        let u = started(near).unwrap();
+        assert!(
+            (u[0] - libm::cos(near)).abs() < 1e-9 && (u[1] - libm::sin(near)).abs() < 1e-9,
+            "{near}: {u:?}"
+        );
+    }
+    for far in [3.0, 3.2, -3.1, 9.4] {
+        let refused = started(far).unwrap_err();
+        assert_eq!(refused.code(), "start-too-far");
+        assert!(refused.to_string().contains("driver \"motor\""), "{refused}");
+    }
+}
+
+#[test]
+fn a_screw_starts_after_more_than_half_a_turn() {
+    for angle in [0.5, 3.5, -4.0, 20.0] {
+        let text = format!(
+            r#"{{"name": "nut", "gravity": [0, 0, 0], "bodies": [{{"name": "nut", "mass": 1, "inertia": {{"principal": [0.01, 0.02, 0.02]}}}}],
+                "joints": [{{"name": "thread", "type": "screw", "body_i": "ground", "body_j": "nut", "point": [0, 0, 0], "axis": [1, 0, 0],
+                "pitch": 0.3, "start": {{"angle": {angle}, "rate": 1}}}}]}}"#
+        );
+        let run = Simulation::new(&Scene::from_json(&text).unwrap()).unwrap();
+        near(
+            run.frame().bodies[0].position[0],
+            0.3 * angle / std::f64::consts::TAU,
+            1e-9,
+            "way along the thread",
+        );
+    }
+}
+
+/// The follower of a gear is closed to −1.5 rad at the start and is beyond −π after the first step: its turns go on from there.
+#[test]
+fn turns_are_counted_from_where_joints_were_closed() {
+    let wheel = |name: &str, x: f64| {
+        format!(
+            r#"{{"name": "{name}", "mass": 1, "position": [{x}, 0, 0], "inertia": {{"principal": [0.1, 0.1, 0.2]}}}}"#
+        )
+    };
+    let pin = |name: &str, body: &str, x: f64, start: &str| {
+        format!(
+            r#"{{"name": "{name}", "type": "revolute", "body_i": "ground", "body_j": "{body}", "point": [{x}, 0, 0], "axis": [0, 0, 1]{start}}}"#
+        )
+    };
+    let text = format!(
+        r#"{{"name": "gears", "gravity": [0, 0, 0], "bodies": [{}, {}], "joints": [{}, {}, {{"name": "mesh", "type": "gear",
+            "joints": ["L", "F"], "ratio": -3}}], "events": [{{"name": "far", "of": {{"type": "angle", "joint": "F"}}, "value": -6}}],
+            "simulation": {{"duration": 2}}}}"#,
+        wheel("a", 0.0),
+        wheel("b", 1.0),
+        pin("L", "a", 0.0, r#", "start": {"angle": 0.5, "rate": 1.5}"#),
+        pin("F", "b", 1.0, "")
+    );
+    let mut run = Simulation::new(&Scene::from_json(&text).unwrap()).unwrap();
+    for _ in 0..2 {
+        run.advance_to(2.0).unwrap();
+        let times: Vec<f64> = run.events().iter().map(|event| event.time).collect();
+        assert!(times.len() == 1 && (times[0] - 1.0).abs() < 1e-9, "{times:?}");
+        run.reset();
+    }
 }

@@ -220,6 +220,67 @@ fn a_sleeping_top_nods_and_precesses() {
     }
 }
 
+/// A hinged body on a shaft that turns freely: the shaft's turn is a drift, whose momentum p stays. With J(θ) about the shaft,
+/// A ω² = ∂²(p²/(2 J) + V)/∂θ², and nothing grows.
+#[test]
+fn a_shaft_that_turns_freely_drifts_and_does_not_grow() {
+    let (speed, mass, arm) = (5.0, 2.0, 0.8);
+    let [i, j, k] = [0.02, 0.03, 0.04];
+    let about_hinge = k + mass * arm * arm;
+    let across = mass * arm * arm + i - j;
+    let cosine = mass * G * arm / (speed * speed * across);
+    let sine = (1.0 - cosine * cosine).sqrt();
+    let (s, c) = (sine, cosine);
+    let found = steady(&format!(
+        r#"{{"name": "hoop", "gravity": [0, -9.81, 0], "bodies": [
+            {{"name": "shaft", "mass": 1, "inertia": {{"principal": [0.1, 0.2, 0.1]}}, "angular_velocity": [0, 5, 0]}},
+            {{"name": "arm", "mass": 2, "inertia": {{"principal": [{i}, {j}, {k}]}}, "center_of_mass": [0, -0.8, 0],
+              "orientation": {{"u": [{c}, {s}, 0], "v": [-{s}, {c}, 0]}}, "angular_velocity": [0, 5, 0]}}],
+            "joints": [
+            {{"name": "S", "type": "revolute", "body_i": "ground", "body_j": "shaft", "point": [0, 0, 0], "axis": [0, 1, 0]}},
+            {{"name": "H", "type": "revolute", "body_i": "shaft", "body_j": "arm", "point": [0, 0, 0], "axis": [0, 0, 1]}}]}}"#
+    ));
+    let about_shaft = 0.2 + j + across * s * s;
+    let (first, second) = (2.0 * across * s * c, 2.0 * across * (c * c - s * s));
+    let momentum = about_shaft * speed;
+    let bent =
+        momentum * momentum * (2.0 * first * first / about_shaft.powi(3) - second / about_shaft.powi(2))
+            / 2.0;
+    let exact = ((bent + mass * G * arm * c) / about_hinge).sqrt();
+    let kinds: Vec<&str> = found.modes.iter().map(|mode| mode.kind).collect();
+    assert_eq!(kinds, ["drifts", "oscillates"], "{:?}", found.modes);
+    assert!((TAU * found.modes[1].frequency / exact - 1.0).abs() < 1e-9);
+}
+
+/// Points on rods turn freely, and thin rods between balls spin: they count as freedoms, and a refusal says so.
+#[test]
+fn too_many_freedoms_are_told_with_those_that_are_idle() {
+    let chain = |n: usize| {
+        let bodies: Vec<String> = (0..n)
+            .map(|k| format!(r#"{{"name": "p{k}", "mass": 1, "position": [0, -{}, 0]}}"#, k + 1))
+            .collect();
+        let joint = |k: usize| {
+            let above = if k == 0 { "ground".to_owned() } else { format!("p{}", k - 1) };
+            format!(
+                r#"{{"name": "j{k}", "type": "rod", "body_i": "{above}", "body_j": "p{k}", "point_i": [0, 0, 0], "point_j": [0, 0, 0], "length": 1}}"#
+            )
+        };
+        let joints: Vec<String> = (0..n).map(joint).collect();
+        let text = format!(
+            r#"{{"name": "points", "gravity": [0, -9.81, 0], "bodies": [{}], "joints": [{}]}}"#,
+            bodies.join(","),
+            joints.join(",")
+        );
+        modes(&Scene::from_json(&text).unwrap(), ModesAbout::Equilibrium)
+    };
+    let refused = chain(121).unwrap_err();
+    let told = refused.to_string();
+    assert!(told.contains("has 605, 363 of which are turns") && told.contains("\"p0\" first"), "{told}");
+    assert!(refused.hint().contains("revolute"), "{}", refused.hint());
+    let found = chain(3).unwrap();
+    assert_eq!((found.freedoms, found.left_out), (15, 9));
+}
+
 /// With its shaft driven, a governor has three motions besides, all damped or at least not growing.
 #[test]
 fn a_driven_governor_has_modes_about_its_steady_motion() {

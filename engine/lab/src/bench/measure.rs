@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 
 use triad_engine::EngineError;
 use triad_engine::run::{Simulation, Summary};
-use triad_scene::Scene;
 use triad_scene::catalogue;
+use triad_scene::{IntegratorKind, Scene};
 
 use super::plan::{BenchCase, BenchPlan, Method, Truth};
 use super::reference::{self, distance};
@@ -40,21 +40,35 @@ impl Measured {
     }
 }
 
+/// A method that a scene is not run by, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Name of the scene.
+    pub scene: String,
+    /// The method, in words.
+    pub method: String,
+    /// What stands against it.
+    pub why: String,
+}
+
 /// A run that is ready to be repeated.
 struct Ready {
     simulation: Simulation,
     measured: Measured,
 }
 
-/// Runs a plan; `progress(done, of all, what)` hears how far it is, in parts of one.
+/// Runs a plan, and tells what was left out of it; `progress(done, of all, what)` hears how far it is, in parts of one.
 ///
 /// # Errors
 ///
 /// The error of the first run that cannot start or go on.
-pub fn measure(plan: &BenchPlan, mut progress: impl FnMut(f64, &str)) -> Result<Vec<Measured>, EngineError> {
-    let mut ready = Vec::new();
+pub fn measure(
+    plan: &BenchPlan,
+    mut progress: impl FnMut(f64, &str),
+) -> Result<(Vec<Measured>, Vec<LeftOut>), EngineError> {
+    let (mut ready, mut left_out) = (Vec::new(), Vec::new());
     for (index, case) in plan.cases.iter().enumerate() {
-        prepare(plan, case, &mut ready, |part| {
+        prepare(plan, case, (&mut ready, &mut left_out), |part| {
             progress(0.4 * (index as f64 + part) / plan.cases.len() as f64, &case.scene);
         })?;
     }
@@ -72,20 +86,18 @@ pub fn measure(plan: &BenchPlan, mut progress: impl FnMut(f64, &str)) -> Result<
         }
         progress(0.4 + 0.6 * (round + 1) as f64 / plan.repeats as f64, "repeats");
     }
-    Ok(ready
-        .into_iter()
-        .map(|Ready { simulation, mut measured }| {
-            measured.times.sort_by(f64::total_cmp);
-            measured.work = simulation.summary();
-            measured
-        })
-        .collect())
+    let measured = ready.into_iter().map(|Ready { simulation, mut measured }| {
+        measured.times.sort_by(f64::total_cmp);
+        measured.work = simulation.summary();
+        measured
+    });
+    Ok((measured.collect(), left_out))
 }
 
 fn prepare(
     plan: &BenchPlan,
     case: &BenchCase,
-    ready: &mut Vec<Ready>,
+    (ready, left_out): (&mut Vec<Ready>, &mut Vec<LeftOut>),
     mut progress: impl FnMut(f64),
 ) -> Result<(), EngineError> {
     let mut scene: Scene = match &case.given {
@@ -97,18 +109,37 @@ fn prepare(
     let compared = if case.truth == Truth::Converged { scene.bodies.len() } else { 1 };
     for (index, &method) in plan.methods.iter().enumerate() {
         progress(index as f64 / plan.methods.len() as f64);
-        for &tolerance in plan.tolerances.iter().filter(|&&t| BenchPlan::worth(case, method, t)) {
+        let leave = |why: String| LeftOut { scene: case.scene.clone(), method: method.to_string(), why };
+        let mut worth = plan.tolerances.iter().filter(|&&t| BenchPlan::worth(case, method, t)).peekable();
+        if worth.peek().is_none() {
+            left_out.push(leave("no tolerance of these is worth its time".to_owned()));
+        }
+        for &tolerance in worth {
             scene.coordinates = method.coordinates;
             scene.simulation.integrator = method.integrator;
             scene.simulation.constraint_method = method.constraint_method;
             scene.simulation.tolerance = tolerance;
-            let error = reference::positions(&scene, compared).ok().map(|run| distance(&run, &truth));
             let mut simulation = match Simulation::new(&scene) {
                 Ok(simulation) => simulation,
                 // A method that a given scene cannot be run by is left out; the built-in ones are run by all.
-                Err(_) if case.given.is_some() => continue,
+                Err(error) if case.given.is_some() => {
+                    left_out.push(leave(error.to_string()));
+                    break;
+                }
                 Err(error) => return Err(error),
             };
+            // Times of another method than the one that is named would say nothing of this one.
+            let by = simulation.summary();
+            if method.integrator != IntegratorKind::Auto && by.integrator != method.integrator {
+                left_out.push(leave(format!("it would run by {}: {}", by.integrator, by.reason)));
+                break;
+            }
+            let run = reference::positions(&scene, compared);
+            if let Err(error @ EngineError::Integrator { .. }) = &run {
+                left_out.push(leave(error.to_string()));
+                break;
+            }
+            let error = run.ok().map(|run| distance(&run, &truth));
             simulation.set_step_limit(reference::MAX_STEPS);
             let work = simulation.summary();
             let times = Vec::with_capacity(plan.repeats);

@@ -97,6 +97,24 @@ pub enum SweepError {
         /// How many.
         runs: String,
     },
+    /// Two variations of one number: the second would replace what the first chose.
+    #[error("{pointer} is varied twice, by {first} and by {second}")]
+    Twice {
+        /// The number's place in the scene.
+        pointer: String,
+        /// The name of the first variation.
+        first: String,
+        /// That of the second.
+        second: String,
+    },
+    /// Several samples of numbers none of which is drawn: all would be the same run.
+    #[error(
+        "none of the numbers is drawn at random, so that {samples} samples of each point would be the same run"
+    )]
+    Undrawn {
+        /// How many samples.
+        samples: usize,
+    },
     /// Threads that cannot be started.
     #[error("{threads} threads cannot be started: {reason}")]
     Threads {
@@ -117,8 +135,27 @@ impl SweepPlan {
     ///
     /// # Errors
     ///
-    /// [`SweepError::Count`]: none, or too many.
+    /// [`SweepError::Count`]: none, or too many; [`SweepError::Twice`] and [`SweepError::Undrawn`]: some would not differ as the
+    /// plan says.
     pub fn count(&self) -> Result<usize, SweepError> {
+        let drawn = |variation: &Variation| !matches!(variation.values, Values::Grid { .. });
+        if self.samples > 1 && !self.varied.iter().any(drawn) {
+            return Err(SweepError::Undrawn { samples: self.samples });
+        }
+        for (k, second) in self.varied.iter().enumerate() {
+            let places = |of: &Variation, pointer: &str| of.places.iter().any(|(place, _)| place == pointer);
+            let shared = self.varied[..k].iter().find_map(|first| {
+                second
+                    .places
+                    .iter()
+                    .find(|(pointer, _)| places(first, pointer))
+                    .map(|(pointer, _)| (first, pointer))
+            });
+            if let Some((first, pointer)) = shared {
+                let (pointer, first, second) = (pointer.clone(), first.name.clone(), second.name.clone());
+                return Err(SweepError::Twice { pointer, first, second });
+            }
+        }
         let grids = self.varied.iter().map(|variation| match variation.values {
             Values::Grid { count, .. } => count,
             Values::Uniform { .. } | Values::Normal { .. } => 1,

@@ -6,7 +6,9 @@ use axum::http::StatusCode;
 use clap::Args;
 use serde_json::{Value, json};
 use triad_engine::scene::{ConstraintMethod, Coordinates, IntegratorKind};
-use triad_lab::bench::{BenchCase, BenchPlan, Measured, Wish, by_scene, csv, html, measure, svg, table};
+use triad_lab::bench::{
+    BenchCase, BenchPlan, LeftOut, Measured, Wish, by_scene, csv, html, measure, svg, table,
+};
 
 use super::raster::{RasterError, png};
 use crate::cli::clock::Clock;
@@ -37,12 +39,22 @@ pub(in crate::cli) struct Bench {
     #[arg(long, value_name = "WORDS", value_delimiter = ',')]
     coordinates: Vec<Coordinates>,
     /// Tolerances.
-    #[arg(long, value_name = "NUMBERS", value_delimiter = ',')]
+    #[arg(long, value_name = "NUMBERS", value_delimiter = ',', value_parser = tolerance)]
     tolerances: Vec<f64>,
     /// The folder for bench.csv, bench.html and the plots as SVG and PNG; made if it is not there. The workbench
     /// shows what is in its own folder at /bench.
     #[arg(long, default_value = crate::app::REPORTS, value_name = "DIR")]
     out: PathBuf,
+}
+
+/// Reads a tolerance as scenes may have it.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let tolerance: f64 = text.trim().parse().map_err(|_| "not a number".to_owned())?;
+    if (1e-14..=1e-1).contains(&tolerance) {
+        Ok(tolerance)
+    } else {
+        Err("not between 1e-14 and 0.1".to_owned())
+    }
 }
 
 /// Reads a treatment: a word that needs no numbers, or JSON.
@@ -83,11 +95,27 @@ pub(in crate::cli) fn bench(options: Bench, json: bool) -> Result<Outcome, Probl
     make_folder(&folder)?;
     let mut clock = Clock::start();
     let bar = progress("bench", 1.0, json);
-    let runs = measure(&plan, |part, _| bar.reached(part))?;
+    let (runs, left_out) = measure(&plan, |part, _| bar.reached(part))?;
     drop(bar);
     clock.lap("measure");
     if !json {
         print_line(&table(&runs));
+        for LeftOut { scene, method, why } in &left_out {
+            print_line(&format!("left out: {scene} by {method}: {why}"));
+        }
+    }
+    if runs.is_empty() {
+        return Err(Problem::new(
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "nothing-to-measure",
+            left_out.first().map_or_else(
+                || "there is nothing to measure".to_owned(),
+                |left| {
+                    format!("there is nothing to measure: {} by {}: {}", left.scene, left.method, left.why)
+                },
+            ),
+            "choose other integrators, treatments or tolerances",
+        ));
     }
     let write = |name: &str, bytes: &[u8]| write(&folder.join(name), bytes);
     write(reports::BENCH, html(&runs).as_bytes())?;
@@ -100,7 +128,13 @@ pub(in crate::cli) fn bench(options: Bench, json: bool) -> Result<Outcome, Probl
     }
     clock.lap("write");
     if json {
-        print_json(&json!({ "runs": runs.iter().map(told).collect::<Vec<_>>(), "seconds": clock }));
+        let left_out: Vec<Value> = left_out
+            .iter()
+            .map(|left| json!({ "scene": left.scene, "method": left.method, "why": left.why }))
+            .collect();
+        print_json(
+            &json!({ "runs": runs.iter().map(told).collect::<Vec<_>>(), "left_out": left_out, "seconds": clock }),
+        );
         return Ok(Outcome::Done);
     }
     print_line(&format!("written: bench.html, bench.csv and the plots, in {}", folder.display()));

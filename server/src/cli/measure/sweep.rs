@@ -8,6 +8,7 @@ use axum::http::StatusCode;
 use clap::Args;
 use serde_json::{Value, json};
 use triad_engine::EngineError;
+use triad_engine::run::Simulation;
 use triad_engine::scene::{IntegratorKind, Output, Scene};
 use triad_lab::sweep::{Sweep, SweepError, SweepPlan, SweepRun, Values, Variation, Watch, svg, sweep};
 
@@ -15,6 +16,7 @@ use crate::cli::choice;
 use crate::cli::clock::Clock;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::output::write;
+use crate::cli::scene::run::{as_asked, with_errors};
 use crate::cli::terminal::{Outcome, TimeBar, counted, print_json, print_line, progress};
 use crate::problem::Problem;
 use crate::scenes;
@@ -43,10 +45,10 @@ pub(in crate::cli) struct Options {
     #[arg(long, value_name = "N", default_value_t = 0)]
     threads: usize,
     /// End of each run in seconds, instead of the scene's.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     until: Option<f64>,
     /// Tolerance of the integrator, instead of the scene's.
-    #[arg(long, value_name = "TOL")]
+    #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
     tolerance: Option<f64>,
     /// Integrator, instead of the scene's.
     #[arg(long, value_name = "NAME", value_parser = choice::integrator)]
@@ -90,6 +92,11 @@ impl From<SweepError> for Problem {
         let (code, hint) = match error {
             SweepError::Engine(error) => return error.into(),
             SweepError::Count { .. } => ("sweep-size", "give grids fewer points, and --samples at least 1"),
+            SweepError::Twice { .. } => ("varied-twice", "leave one of the two --vary out"),
+            SweepError::Undrawn { .. } => (
+                "nothing-drawn",
+                "leave --samples out, or vary a number by uniform:FROM:TO or normal:MEAN:DEVIATION",
+            ),
             SweepError::Threads { .. } => ("threads", "give fewer --threads, or leave it out"),
         };
         Self::new(StatusCode::UNPROCESSABLE_ENTITY, code, error.to_string(), hint)
@@ -101,6 +108,7 @@ pub(in crate::cli) fn run(options: &Options, json: bool) -> Result<Outcome, Prob
     let mut clock = Clock::start();
     let plan = plan(options)?;
     let count = plan.count()?;
+    let replaced = replaced(options, &plan.scene)?;
     clock.lap("read");
     let bar = progress(&plan.scene.name, count as f64, json);
     let watcher = Watcher { interrupt: Interrupt::listen(), done: AtomicUsize::new(0), bar };
@@ -124,10 +132,14 @@ pub(in crate::cli) fn run(options: &Options, json: bool) -> Result<Outcome, Prob
             "columns": found.columns.iter().map(|c| json!({"name": c.name, "unit": c.unit})).collect::<Vec<_>>(),
             "runs": found.runs.iter().map(told).collect::<Vec<_>>(),
             "cancelled": left,
+            "notes": replaced,
             "seconds": clock,
         }));
     } else {
         print(&plan.scene, &found, left);
+        for note in &replaced {
+            print_line(&format!("  note                   {note}"));
+        }
         print_line(&clock.line());
         for file in [&options.out, &options.svg].into_iter().flatten() {
             print_line(&format!("  written                {}", file.display()));
@@ -145,9 +157,20 @@ fn plan(options: &Options) -> Result<SweepPlan, Problem> {
     settings.error_estimate &= !options.no_estimate;
     if !options.outputs.is_empty() {
         settings.outputs.clone_from(&options.outputs);
+        with_errors(settings)?;
     }
     let varied = options.vary.iter().map(|text| variation(&scene, text)).collect::<Result<_, _>>()?;
     Ok(SweepPlan { varied, samples: options.samples, seed: options.seed, ..SweepPlan::new(scene) })
+}
+
+/// Refuses to run by another integrator than the one that the command line asks for; tells of one that the scene asks for. A scene
+/// that is none before its numbers are varied is judged run by run.
+fn replaced(options: &Options, scene: &Scene) -> Result<Vec<String>, Problem> {
+    let Ok(simulation) = Simulation::new(scene) else { return Ok(Vec::new()) };
+    if options.integrator.is_some() {
+        as_asked(&simulation)?;
+    }
+    Ok(simulation.notes().iter().filter(|note| note.starts_with("runs by ")).cloned().collect())
 }
 
 /// Reads `NAME=FROM:TO:COUNT`, `NAME=uniform:FROM:TO` or `NAME=normal:MEAN:DEVIATION`.

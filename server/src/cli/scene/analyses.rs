@@ -1,6 +1,7 @@
 //! `triad reactions`, `equilibrium`, `modes`, `kinematics` and `assemble`.
 
 use clap::{Args, ValueEnum};
+use triad_engine::EngineError;
 use triad_engine::analysis;
 use triad_engine::reactions::report::{
     Convention, ExpressedIn, MomentReference, Reaction, ReactionReport, Side,
@@ -88,8 +89,14 @@ pub(in crate::cli) fn reactions(
     clock.lap("read");
     let mut simulation = Simulation::new(&scene)?;
     clock.lap("assemble");
+    if !(0.0..=simulation.duration()).contains(&at) {
+        return Err(EngineError::TimeOutside { time: at, from: 0.0, to: simulation.duration() }.into());
+    }
     simulation.advance_to(at)?;
     clock.lap("integrate");
+    if simulation.time() < at {
+        return Err(EngineError::TimeOutside { time: at, from: 0.0, to: simulation.time() }.into());
+    }
     let report = simulation.reactions(words.convention())?;
     clock.lap("solve");
     if json {
@@ -212,25 +219,11 @@ pub(in crate::cli) fn modes(
         for spin in &steady.spins {
             print_line(&format!("    {} spins in it at {:.6} rad/s", spin.body, spin.rate));
         }
+        // A start that is not steady may be far from the motion that is found.
+        print_line("  where the bodies stand in it:");
+        print_bodies(&scene, &found.bodies);
     }
-    for (index, mode) in found.modes.iter().enumerate() {
-        print_line(&format!(
-            "  mode {}: {:<10} {:>12.6} Hz, growth {:>12.6} 1/s, damping ratio {:.6}",
-            index + 1,
-            mode.kind,
-            mode.frequency,
-            mode.growth + 0.0,
-            mode.damping_ratio + 0.0
-        ));
-        for (body, motion) in scene.bodies.iter().zip(&mode.shape) {
-            print_line(&format!(
-                "    {}: moves {} m, turns {} rad",
-                body.name,
-                triple(motion.translation),
-                triple(motion.rotation)
-            ));
-        }
-    }
+    print_modes(&scene, &found);
     if found.left_out > 0 {
         print_line(&format!("  motions left out because they have no inertia: {}", found.left_out));
         for turns in &found.without_inertia {
@@ -243,6 +236,47 @@ pub(in crate::cli) fn modes(
     }
     Ok(Outcome::Done)
 }
+
+/// Each mode with its shape; of one whose bodies do not move in phase also the shape a quarter of a period later.
+fn print_modes(scene: &triad_engine::Scene, found: &analysis::Modes) {
+    for (index, mode) in found.modes.iter().enumerate() {
+        print_line(&format!(
+            "  mode {}: {:<10} {:>12} Hz, growth {:>12} 1/s, damping ratio {}",
+            index + 1,
+            mode.kind,
+            digits(mode.frequency),
+            digits(mode.growth),
+            digits(mode.damping_ratio)
+        ));
+        for (body, motion) in scene.bodies.iter().zip(&mode.shape) {
+            let later = [motion.translation_later, motion.rotation_later];
+            let later = if later.as_flattened().iter().all(|x| x.abs() < LEAST) {
+                String::new()
+            } else {
+                format!("; a quarter of a period later {} m, {} rad", triple(later[0]), triple(later[1]))
+            };
+            print_line(&format!(
+                "    {}: moves {} m, turns {} rad{later}",
+                body.name,
+                triple(motion.translation),
+                triple(motion.rotation)
+            ));
+        }
+    }
+    if !found.modes.is_empty() {
+        print_line(
+            "  shapes: the largest component (m, or rad times the mechanism's length) is one; what moves is the centre of mass",
+        );
+    }
+}
+
+/// Six places, or six digits of what would be lost in them.
+fn digits(x: f64) -> String {
+    if x == 0.0 || (1e-3..1e7).contains(&x.abs()) { format!("{:.6}", x + 0.0) } else { format!("{x:.6e}") }
+}
+
+/// Half of the last place of a component that is printed.
+const LEAST: f64 = 5e-7;
 
 /// Kinematic analysis and inverse dynamics of a driven scene.
 pub(in crate::cli) fn kinematics(source: &Source, words: &Words, json: bool) -> Result<Outcome, Problem> {

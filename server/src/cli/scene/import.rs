@@ -27,7 +27,11 @@ pub(in crate::cli) fn import(options: &Import, json: bool) -> Result<Outcome, Pr
     let text = scenes::read(&options.urdf, urdf::MAX_TEXT as u64)?;
     let side_car = match &options.with {
         None => SideCar::default(),
-        Some(path) => crate::api::parse(scenes::read(path, urdf::MAX_TEXT as u64)?.as_bytes())?,
+        Some(path) => {
+            let text = scenes::read(path, urdf::MAX_TEXT as u64)?;
+            let hint = "`triad import --help` shows a side-car; joints, drivers, loads and settings are those of a scene";
+            crate::api::parse_as("the side-car", hint, text.as_bytes())?
+        }
     };
     let imported = urdf::import(&text, &side_car)?;
     let written = imported.scene.to_json();

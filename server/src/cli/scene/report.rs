@@ -37,6 +37,7 @@ pub(super) fn report(
     let reactions = simulation.reaction_errors();
     let mut notes = simulation.notes().to_vec();
     notes.extend(options.source.notes(scene, summary.integrator == IntegratorKind::Taylor));
+    notes.extend(options.idle());
     let left_out = options.explain.then(|| simulation.left_out());
     if json {
         let mut document = json!({

@@ -7,7 +7,7 @@ use axum::http::StatusCode;
 use triad_engine::EngineError;
 use triad_engine::model::Model;
 use triad_engine::run::Simulation;
-use triad_engine::scene::{IntegratorKind, Scene, Skip};
+use triad_engine::scene::{IntegratorKind, OutputKind, Scene, Settings, Skip};
 use triad_lab::film::Film;
 use triad_lab::verify::Verifier;
 use triad_session::picture::{Sample, describe, sample};
@@ -38,7 +38,9 @@ pub(in crate::cli) fn run(options: &Run, json: bool) -> Result<Outcome, Problem>
     clock.lap("check");
     let mut simulation = Simulation::from_model(model)?;
     clock.lap("assemble");
-    chosen(options, &simulation)?;
+    if options.integrator.is_some() || options.treatment.is_some() || options.step.is_some() {
+        as_asked(&simulation)?;
+    }
     if let Some(steps) = options.most_steps {
         simulation.set_step_limit(steps);
     }
@@ -80,14 +82,13 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
     simulation.integrator = options.integrator.unwrap_or(simulation.integrator);
     simulation.constraint_method = options.treatment.unwrap_or(simulation.constraint_method);
     simulation.step = options.step.or(simulation.step);
+    simulation.error_estimate &= !options.no_estimate;
     if !options.outputs.is_empty() {
         simulation.outputs.clone_from(&options.outputs);
+        with_errors(simulation)?;
     }
-    simulation.error_estimate &= !options.no_estimate;
-    let writes = [&options.out, &options.rrd, &options.svg, &options.html].iter().any(|file| file.is_some())
-        || options.rerun.is_some();
     let outputs = simulation.duration / simulation.every;
-    if writes && outputs > MAX_OUTPUTS {
+    if options.writes() && outputs > MAX_OUTPUTS {
         return Err(Problem::new(
             StatusCode::UNPROCESSABLE_ENTITY,
             "too-many-outputs",
@@ -98,12 +99,24 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
     Ok(scene)
 }
 
-/// Refuses to run by another integrator than the one that was asked for together with what the command line chose.
-fn chosen(options: &Run, simulation: &Simulation) -> Result<(), Problem> {
+/// Refuses to write errors that are not estimated.
+pub(in crate::cli) fn with_errors(settings: &Settings) -> Result<(), Problem> {
+    if settings.error_estimate || settings.outputs.iter().all(|output| output.kind != OutputKind::Errors) {
+        return Ok(());
+    }
+    Err(Problem::new(
+        StatusCode::UNPROCESSABLE_ENTITY,
+        "no-errors",
+        "the outputs hold errors, but the run carries no estimate of them along",
+        "leave --no-estimate out (and \"error_estimate\": false in the scene), or errors out of --outputs",
+    ))
+}
+
+/// Refuses to run by another integrator than the one that was asked for.
+pub(in crate::cli) fn as_asked(simulation: &Simulation) -> Result<(), Problem> {
     let asked = simulation.model().settings.integrator;
     let summary = simulation.summary();
-    let by_command = options.integrator.is_some() || options.treatment.is_some() || options.step.is_some();
-    if !by_command || asked == IntegratorKind::Auto || asked == summary.integrator {
+    if asked == IntegratorKind::Auto || asked == summary.integrator {
         return Ok(());
     }
     Err(Problem::new(

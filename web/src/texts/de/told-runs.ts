@@ -8,6 +8,12 @@ export const toldOfRuns: Record<string, string> = {
     "der Mechanismus lässt sich nahe seinem Anfang nicht schließen: Gelenk „{joint}“ bleibt um {violation} der Größe des Mechanismus offen und mit ihm {with} (verschoben um {moved} m)",
   'joint "{joint}" is open at the start, and closing all joints would move bodies by {moved} m, more than the {limit} m that count as a correction':
     "Gelenk „{joint}“ ist am Anfang offen, und alle Gelenke zu schließen würde Körper um {moved} m verschieben, mehr als die {limit} m, die als Korrektur gelten",
+  'the mechanism cannot be assembled near its start: driver "{driver}" stays open by {violation} of the mechanism\'s size (moved by {moved} m)':
+    "der Mechanismus lässt sich nahe seinem Anfang nicht schließen: Antrieb „{driver}“ bleibt um {violation} der Größe des Mechanismus offen (verschoben um {moved} m)",
+  'the mechanism cannot be assembled near its start: driver "{driver}" stays open by {violation} of the mechanism\'s size, and with it {with} (moved by {moved} m)':
+    "der Mechanismus lässt sich nahe seinem Anfang nicht schließen: Antrieb „{driver}“ bleibt um {violation} der Größe des Mechanismus offen und mit ihm {with} (verschoben um {moved} m)",
+  'driver "{driver}" is open at the start, and closing all joints would move bodies by {moved} m, more than the {limit} m that count as a correction':
+    "Antrieb „{driver}“ ist am Anfang offen, und alle Gelenke zu schließen würde Körper um {moved} m verschieben, mehr als die {limit} m, die als Korrektur gelten",
   'driver "{driver}" asks for a motion that the joints do not allow at t = {time} s: no velocities satisfy it; the nearest miss it by {missed}/s':
     "Antrieb „{driver}“ verlangt eine Bewegung, die die Gelenke bei t = {time} s nicht erlauben: Keine Geschwindigkeiten erfüllen sie; die nächsten verfehlen sie um {missed}/s",
   'driver "{driver}" asks for a motion that the joints do not allow at t = {time} s: no velocities satisfy it together with {with}; the nearest miss it by {missed}/s':
@@ -104,6 +110,8 @@ export const toldOfRuns: Record<string, string> = {
     "Lagen weichen um etwa {off} m ab, mehr als ein Hundertstel der Länge des Mechanismus von {length} m; {cause}",
   "a singular position was passed at t = {time} s, through which {method} holds neither the constraints nor the branch of the motion: what follows may be wrong; {cause}":
     "Bei t = {time} s wurde eine singuläre Lage durchlaufen, in der {method} weder die Zwangsbedingungen noch den Zweig der Bewegung hält: Was folgt, kann falsch sein; {cause}",
+  "the energy is off by {drift} J, {times} times what the estimate of the errors says: positions may be off by as many times more than it says, or more; {cause}":
+    "die Energie weicht um {drift} J ab, {times}-mal so viel, wie die Schätzung der Fehler sagt: Lagen können um ebenso viele Male weiter abweichen, als sie sagt, oder mehr; {cause}",
   "{size} of the largest kinetic energy came from nowhere or went there, more than a tolerance of {tolerance} promises; {cause}":
     "{size} der größten kinetischen Energie kamen aus dem Nichts oder verschwanden darin, mehr als eine Toleranz von {tolerance} verspricht; {cause}",
   "{size} of the mechanism's size is how far the joints are open, more than a tolerance of {tolerance} promises; {cause}":
@@ -122,6 +130,8 @@ export const toldOfRuns: Record<string, string> = {
   // Analyses.
   "this analysis takes at most {most} degrees of freedom, because its work grows with their cube; the scene has {freedoms}":
     "diese Analyse nimmt höchstens {most} Freiheitsgrade, denn ihre Arbeit wächst mit deren dritter Potenz; die Szene hat {freedoms}",
+  'this analysis takes at most {most} degrees of freedom, because its work grows with their cube; the scene has {freedoms}, {turns} of which are turns of bodies about axes about which they have no inertia, "{body}" first':
+    "diese Analyse nimmt höchstens {most} Freiheitsgrade, denn ihre Arbeit wächst mit deren dritter Potenz; die Szene hat {freedoms}, von denen {turns} Drehungen von Körpern um Achsen sind, um die sie keine Trägheit haben, zuerst „{body}“",
   'no equilibrium was found: after {steps} steps a generalized force of {force} N is left, most of it on body "{body}"':
     "es wurde kein Gleichgewicht gefunden: Nach {steps} Schritten bleibt eine verallgemeinerte Kraft von {force} N, das meiste davon an Körper „{body}“",
   'there is no steady motion near the start: "{name}" does not let the bodies keep their places in one frame that turns and slides uniformly (a body may spin only about an axis around which its moments of inertia are alike)':
@@ -166,6 +176,8 @@ export const toldOfRuns: Record<string, string> = {
   // What helps with analyses.
   "Look whether anything holds that body: a body that falls freely has no equilibrium. Otherwise start nearer to where it comes to rest.":
     "Sieh nach, ob diesen Körper etwas hält: Ein frei fallender Körper hat kein Gleichgewicht. Sonst beginne näher an seiner Ruhelage.",
+  'Take those turns away: in place of points on joints of the kind "rod", or of thin rods between spherical joints, let thin rods hang on revolute joints where all moves in a plane, on universal joints where it does not. Or analyse a part of the mechanism as a scene of its own.':
+    "Nimm diese Drehungen weg: Statt Punkten an Gelenken der Art „rod“ oder dünnen Stäben zwischen Kugelgelenken lass dünne Stäbe an Drehgelenken hängen, wo sich alles in einer Ebene bewegt, sonst an Kreuzgelenken. Oder untersuche einen Teil des Mechanismus als eigene Szene.",
   "Analyse a part of the mechanism as a scene of its own.":
     "Untersuche einen Teil des Mechanismus als eigene Szene.",
   "Add a driver for each degree of freedom, or run the scene forward in time.":

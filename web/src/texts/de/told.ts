@@ -187,6 +187,8 @@ export const told: Record<string, string> = {
     "Ein Parameter nennt Zahlen dieser Szene durch JSON-Zeiger ab 0, wie /bodies/0/mass, und einen Bereich, in dem die Zahl dort liegt.",
   "Split the mechanism, or leave out what does not move.":
     "Teil den Mechanismus, oder lass weg, was sich nicht bewegt.",
+  "Let the driver begin where the stated positions stand: angles count from those, slides are the distance of the joint's points along the axis. Or state the bodies where the driver begins.":
+    "Lass den Antrieb da beginnen, wo die angegebenen Lagen stehen: Winkel zählen von dort, Verschiebungen sind der Abstand der Gelenkpunkte längs der Achse. Oder gib die Körper da an, wo der Antrieb beginnt.",
   "Check the points and axes of that joint on both of its bodies, and the positions of the bodies.":
     "Prüf die Punkte und Achsen dieses Gelenks auf beiden Körpern und die Lagen der Körper.",
   "Let the driver stand still there, free one of the joints that are named, or leave out one of two drivers that contradict each other: `triad check` tells the degrees of freedom.":

@@ -10,10 +10,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::pencil::null_and_rest;
-use crate::analysis::Stage;
+use crate::analysis::{Stage, idle::moment};
 
-/// Principal moment, as a part of the largest one of the body, below which it is rounding of zero.
-const NO_MOMENT: f64 = 1e-13;
 /// Displacement of centres of mass and of points at the radii of gyration, as a part of the displacement of the motion
 /// with arcs at the mechanism's length, below which a motion has no inertia: radii of gyration below a nanometre for a
 /// mechanism of one metre.
@@ -61,12 +59,10 @@ fn weighted(stage: &Stage, basis: &DMatrix<f64>, weights: impl Fn(f64, f64) -> (
     let mechanism = &stage.mechanism;
     for (index, (body, at)) in mechanism.system.bodies.iter().zip(mechanism.state.bodies()).enumerate() {
         let axes = Matrix3::from_columns(&at.q.e);
-        let largest = body.principal.max();
         for mut column in out.column_iter_mut() {
             let turning = axes.tr_mul(&column.fixed_rows::<3>(6 * index + 3));
             for k in 0..3 {
-                let moment = if body.principal[k] > NO_MOMENT * largest { body.principal[k] } else { 0.0 };
-                let (a, b) = weights(body.mass, moment / body.mass);
+                let (a, b) = weights(body.mass, moment(&body.principal, k) / body.mass);
                 column[6 * index + k] *= a;
                 column[6 * index + 3 + k] = b.sqrt() * turning[k];
             }
