@@ -105,17 +105,7 @@ pub(in crate::cli) fn bench(options: Bench, json: bool) -> Result<Outcome, Probl
         }
     }
     if runs.is_empty() {
-        return Err(Problem::new(
-            StatusCode::UNPROCESSABLE_ENTITY,
-            "nothing-to-measure",
-            left_out.first().map_or_else(
-                || "there is nothing to measure".to_owned(),
-                |left| {
-                    format!("there is nothing to measure: {} by {}: {}", left.scene, left.method, left.why)
-                },
-            ),
-            "choose other integrators, treatments or tolerances",
-        ));
+        return Err(nothing(&left_out));
     }
     let write = |name: &str, bytes: &[u8]| write(&folder.join(name), bytes);
     write(reports::BENCH, html(&runs).as_bytes())?;
@@ -128,13 +118,9 @@ pub(in crate::cli) fn bench(options: Bench, json: bool) -> Result<Outcome, Probl
     }
     clock.lap("write");
     if json {
-        let left_out: Vec<Value> = left_out
-            .iter()
-            .map(|left| json!({ "scene": left.scene, "method": left.method, "why": left.why }))
-            .collect();
-        print_json(
-            &json!({ "runs": runs.iter().map(told).collect::<Vec<_>>(), "left_out": left_out, "seconds": clock }),
-        );
+        let runs: Vec<Value> = runs.iter().map(told).collect();
+        let left_out: Vec<Value> = left_out.iter().map(told_left_out).collect();
+        print_json(&json!({ "runs": runs, "left_out": left_out, "seconds": clock }));
         return Ok(Outcome::Done);
     }
     print_line(&format!("written: bench.html, bench.csv and the plots, in {}", folder.display()));
@@ -162,6 +148,22 @@ fn told(run: &Measured) -> Value {
         "evaluations": run.work.evaluations,
         "steps": run.work.steps,
     })
+}
+
+fn told_left_out(left: &LeftOut) -> Value {
+    json!({ "scene": left.scene, "method": left.method, "why": left.why })
+}
+
+fn nothing(left_out: &[LeftOut]) -> Problem {
+    let why = left_out
+        .first()
+        .map_or_else(String::new, |left| format!(": {} by {}: {}", left.scene, left.method, left.why));
+    Problem::new(
+        StatusCode::UNPROCESSABLE_ENTITY,
+        "nothing-to-measure",
+        format!("there is nothing to measure{why}"),
+        "choose other integrators, treatments or tolerances",
+    )
 }
 
 fn undrawable(scene: &str, error: &RasterError) -> Problem {
