@@ -41,7 +41,7 @@ use crate::store::HEARD;
 
 pub use admin::{admin, admin_of_grader};
 use describe::Schemas;
-pub(crate) use extract::{parse, parse_as};
+pub(crate) use extract::parse_as;
 pub(crate) use lessons::{instances, starter_of, unknown as unknown_lesson};
 
 /// The head of the interface's description; addresses and schemas are added by the routes themselves.

@@ -134,16 +134,18 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
             break;
         }
     }
-    if stage.q.iter().all(|x| x.is_finite()) {
-        let basis = stage.tangent()?;
-        stage.rest();
-        let force = stage.forces();
-        let along = basis.tr_mul(&force);
-        let left = &basis * &along;
-        if along.amax().is_finite() {
-            last = (along.amax(), stage.foremost(&left));
-        }
-    }
-    let (residual, body) = last;
+    let (residual, body) = left_over(stage)?.unwrap_or(last);
     Err(AnalysisError::NoEquilibrium { iterations: taken, residual, body })
+}
+
+/// The generalized force that is left at the held position, N, and the body that it acts on most; `None` where there are no numbers.
+fn left_over(stage: &mut Stage) -> Result<Option<(f64, String)>, AnalysisError> {
+    if !stage.q.iter().all(|x| x.is_finite()) {
+        return Ok(None);
+    }
+    let basis = stage.tangent()?;
+    stage.rest();
+    let along = basis.tr_mul(&stage.forces());
+    let body = stage.foremost(&(&basis * &along));
+    Ok(along.amax().is_finite().then(|| (along.amax(), body)))
 }

@@ -105,7 +105,7 @@ fn the_bricard_loop_rests_in_its_equilibrium() {
     assert_eq!(found.stable, Some(true));
     let mut scene = catalogue::scene("bricard").unwrap();
     scene.simulation.duration = 1.25;
-    let mut run = triad_engine::run::Simulation::new(&scene).unwrap();
+    let mut run = Simulation::new(&scene).unwrap();
     let lowest =
         |bodies: &[triad_engine::state::BodyFrame]| -> f64 { bodies.iter().map(|b| b.position[1]).sum() };
     let rest = lowest(&found.bodies);

@@ -243,9 +243,11 @@ fn a_shaft_that_turns_freely_drifts_and_does_not_grow() {
     let about_shaft = 0.2 + j + across * s * s;
     let (first, second) = (2.0 * across * s * c, 2.0 * across * (c * c - s * s));
     let momentum = about_shaft * speed;
-    let bent =
-        momentum * momentum * (2.0 * first * first / about_shaft.powi(3) - second / about_shaft.powi(2))
-            / 2.0;
+    let bent = momentum
+        * momentum
+        * (2.0 * first * first / (about_shaft * about_shaft * about_shaft)
+            - second / (about_shaft * about_shaft))
+        / 2.0;
     let exact = ((bent + mass * G * arm * c) / about_hinge).sqrt();
     let kinds: Vec<&str> = found.modes.iter().map(|mode| mode.kind).collect();
     assert_eq!(kinds, ["drifts", "oscillates"], "{:?}", found.modes);
