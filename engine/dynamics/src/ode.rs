@@ -20,6 +20,11 @@ pub trait OdeSystem {
         1.0
     }
 
+    /// Goes to the state y without asking for its ẏ. False if there is none.
+    fn reach(&mut self, _t: f64, _y: &[f64]) -> bool {
+        true
+    }
+
     /// Power of what changes the energy at the state that was evaluated last, W, where there is such and the system knows it.
     fn power(&self) -> Option<f64> {
         None
@@ -44,6 +49,9 @@ impl<S: OdeSystem + ?Sized> OdeSystem for &mut S {
     }
     fn power_at(&mut self, t: f64, y: &[f64]) -> Option<f64> {
         (**self).power_at(t, y)
+    }
+    fn reach(&mut self, t: f64, y: &[f64]) -> bool {
+        (**self).reach(t, y)
     }
     fn begin_stage(&mut self, stage: usize, first: bool) {
         (**self).begin_stage(stage, first);

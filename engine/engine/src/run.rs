@@ -253,7 +253,7 @@ impl Simulation {
         }
         self.work += self.work_of_last_step(self.integrator.last().t);
         if let Some(companion) = &mut self.companion {
-            companion.keep_up(self.integrator.last());
+            companion.keep_up(&self.integrator);
         }
         self.step_integrator(end)?;
         self.find_events();
@@ -384,7 +384,7 @@ impl Simulation {
         let t = t.min(*end);
         current.replace(mechanism, t, |mechanism, y| integrator.interpolate(mechanism, t, y));
         if let Some(companion) = companion {
-            companion.compare(t, current.y(), integrator.last().h);
+            companion.compare(t, current.y(), integrator);
         }
     }
 

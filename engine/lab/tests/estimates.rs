@@ -4,7 +4,7 @@ use triad_engine::catalogue;
 use triad_engine::run::Simulation;
 use triad_lab::estimates::{Judged, WAYS, in_the_way, judge, scenes};
 use triad_lab::stress::random;
-use triad_scene::IntegratorKind;
+use triad_scene::{IntegratorKind, Scene};
 
 #[test]
 fn estimates_are_within_a_factor_of_three_of_the_error() {
@@ -52,6 +52,24 @@ fn a_second_solution_shares_no_error_with_radau() {
     assert!(judged.len() > 400 && 100 * good >= 99 * judged.len(), "{good} of {}", judged.len());
     let bad: Vec<&Judged> = judged.iter().filter(|one| one.is_bad()).collect();
     assert!(bad.is_empty(), "{bad:?}");
+}
+
+/// Beside the stiff method the second solution takes the same steps and begins with what the first one has found: what Newton's method
+/// leaves of the difference must not become the difference.
+#[test]
+fn the_estimate_of_a_stiff_run_is_as_good() {
+    for name in ["scene", "rest"] {
+        let file = format!("{}/../../tests/data/problems/governor/{name}.json", env!("CARGO_MANIFEST_DIR"));
+        let scene = Scene::from_json(&std::fs::read_to_string(file).unwrap()).unwrap();
+        let mut judged: Vec<Judged> = Vec::new();
+        for tolerance in [1e-3, 1e-6, 1e-8] {
+            judged.extend(judge(&in_the_way(&scene, "radau").unwrap().tolerance(tolerance)).unwrap());
+        }
+        let good = judged.iter().filter(|one| one.is_good()).count();
+        assert!(judged.len() >= 50 && 100 * good >= 90 * judged.len(), "{name}: {good} of {judged:?}");
+        let bad = judged.iter().filter(|one| one.is_bad()).count();
+        assert!(bad <= 1, "{name}: {bad} of {judged:?}");
+    }
 }
 
 /// Neighbouring motions part: after the moment that the run tells, it gives no figure any more.

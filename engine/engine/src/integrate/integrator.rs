@@ -81,6 +81,11 @@ impl Integrator {
         (sum, mechanism.projections + projections)
     }
 
+    /// Takes the last step of another run of the same mechanism and method beside it. False where that is not possible.
+    pub fn follow(&mut self, mechanism: &mut Mechanism, other: &Self) -> bool {
+        other.leader().is_some_and(|other| self.stepper.follow(mechanism, other))
+    }
+
     /// Takes the last step back, so that a shorter one can be taken instead.
     pub fn take_back(&mut self, mechanism: &mut Mechanism) {
         self.stepper.retreat(mechanism);

@@ -11,8 +11,11 @@ mod updates;
 
 mod stages;
 
+mod beside;
+
 use super::step::{MIN_ERROR, SAFETY, StepRecord, StopReason, weighted_norm};
 use super::stepper::OdeMethod;
+use beside::Beside;
 pub use coefficients::{RADAU_5, RADAU_9, RADAU_13, RadauTables};
 use linear::{Factors, RateJacobian};
 use nalgebra::DVector;
@@ -80,6 +83,8 @@ pub struct Radau {
     contraction: f64,
     /// Size and error of the step before.
     before: Option<(f64, f64)>,
+    /// What it has needed to take steps beside another run.
+    beside: Option<Box<Beside>>,
 }
 
 impl Radau {
@@ -147,6 +152,7 @@ impl Radau {
             factors: None,
             contraction: 1.0,
             before: None,
+            beside: None,
         }
     }
 
@@ -331,6 +337,7 @@ impl OdeMethod for Radau {
 
     fn step(&mut self, system: &mut impl OdeSystem, end: f64) -> Result<(), StopReason> {
         let mut rejected = false;
+        self.go_alone(system);
         if self.contraction > SLOW || !self.jacobian.valid {
             self.differentiate(system)?;
         }
@@ -373,11 +380,15 @@ impl OdeMethod for Radau {
             out.copy_from_slice(&self.last.y);
             return;
         }
-        self.stages.interpolate(self.last.part(t), &self.x_old, out);
+        let part = self.last.part(t);
+        let start = std::mem::take(&mut self.x_old);
+        self.last_stages().interpolate(part, &start, out);
+        self.x_old = start;
     }
 
     fn stage_weights(&mut self, t: f64) -> Option<&[f64]> {
-        (self.last.h > 0.0).then(|| self.stages.weights_at(self.last.part(t)))
+        let part = self.last.part(t);
+        (self.last.h > 0.0).then(|| self.last_stages().weights_at(part))
     }
 
     /// By the quadrature of the stages, to the order of the method.
@@ -385,6 +396,10 @@ impl OdeMethod for Radau {
         self.power?;
         let x = if self.last.h > 0.0 { self.last.part(t) } else { 0.0 };
         Some(self.stages.work(x, self.last.h))
+    }
+
+    fn follow(&mut self, system: &mut impl OdeSystem, other: &Self) -> bool {
+        self.follow_step(system, other)
     }
 
     fn take_back(&mut self) {

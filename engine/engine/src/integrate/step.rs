@@ -121,6 +121,12 @@ impl StepRecord {
         self.steps.accepted += 1;
     }
 
+    /// Has taken the last step of another record. The state is the caller's to write.
+    pub(super) fn follow(&mut self, other: &Self) {
+        (self.t_old, self.t, self.h) = (self.t, other.t, other.h);
+        self.steps.accepted += 1;
+    }
+
     /// Takes the last step back, which then counts as rejected. The state is the caller's to write.
     pub(super) fn take_back(&mut self) {
         self.t = self.t_old;

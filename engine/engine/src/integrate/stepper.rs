@@ -2,6 +2,7 @@
 
 use super::step::{StepRecord, StopReason};
 use super::track::Track;
+use std::any::Any;
 use std::fmt::Debug;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
@@ -29,6 +30,12 @@ pub trait OdeMethod: Clone + Debug + Send + Sync + 'static {
     /// Integral of [`OdeSystem::power`] from the start of the last step to time t within it, where the method knows it.
     fn work_to(&self, _: f64) -> Option<f64> {
         None
+    }
+
+    /// Takes the last step of another run in the same coordinates, with less left to err. False, and nothing has changed, where the
+    /// method cannot.
+    fn follow(&mut self, _: &mut impl OdeSystem, _: &Self) -> bool {
+        false
     }
 
     /// Takes the last step back. What else belongs to it is for [`OdeMethod::restart`] to renew.
@@ -107,6 +114,17 @@ pub trait Stepper: Debug + Send + Sync {
     /// The path of that step, if the method has a way of its own to evaluate states on it.
     fn track(&mut self) -> Option<&mut dyn Track> {
         None
+    }
+
+    /// What another run needs to know of this one to take its last step beside it.
+    fn leader(&self) -> Option<&dyn Any> {
+        None
+    }
+
+    /// Takes the last step of another run of the same method beside it, with less left to err. False, and nothing has changed, where
+    /// that is not possible.
+    fn follow(&mut self, _: &mut Mechanism, _: &dyn Any) -> bool {
+        false
     }
 
     /// Whether the last step can be taken back.

@@ -47,8 +47,8 @@ pub(super) struct Companion {
     mechanism: Mechanism,
     integrator: Integrator,
     kind: IntegratorKind,
-    /// Longest of its steps, in those of the first one.
-    longest: f64,
+    /// Whether it goes beside the same method, in its steps where it can.
+    alike: bool,
     /// When the two were compared last, s.
     compared: f64,
     /// The second solution at that time, less its own error if it carries that along.
@@ -82,13 +82,12 @@ impl Companion {
         let (kind, _) = integrate::choose(&mut mechanism, y);
         mechanism.set_state(t, y);
         let integrator = Integrator::start_beside(kind, &mut mechanism, t, y);
-        let longest = if stiff { SHORTER } else { f64::INFINITY };
         let own = vec![0.0; y.len()];
         Some(Box::new(Self {
             mechanism,
             integrator,
             kind,
-            longest,
+            alike: stiff,
             compared: t,
             y: y.to_vec(),
             own,
@@ -107,25 +106,23 @@ impl Companion {
     }
 
     /// Goes on to the end of the first one's last step, before it takes another.
-    pub fn keep_up(&mut self, first: &StepRecord) {
-        self.compare(first.t, &first.y, first.h);
+    pub fn keep_up(&mut self, first: &Integrator) {
+        let last = first.last();
+        self.compare(last.t, &last.y, first);
     }
 
-    /// Goes on to time t, not before that of the last comparison, at which the first solution is y, in a step of size h.
-    pub fn compare(&mut self, t: f64, y: &[f64], h: f64) {
+    /// Goes on to time t in the first one's last step, not before that of the last comparison, at which the first solution is y.
+    pub fn compare(&mut self, t: f64, y: &[f64], first: &Integrator) {
         if self.lost.is_some() || t <= self.compared {
             return;
         }
-        let Self { mechanism, integrator, .. } = self;
-        let end = mechanism.system.model.settings.duration;
-        let longest = if h > 0.0 { self.longest * h } else { f64::INFINITY };
-        while integrator.last().t < t {
-            let to = end.min(integrator.last().t + longest);
-            if integrator.step(mechanism, to).is_err() {
-                self.lost = Some(Lost::Stopped(integrator.last().t));
+        while self.integrator.last().t < t {
+            if !(self.alike && self.follow(first)) && !self.step(first) {
+                self.lost = Some(Lost::Stopped(self.integrator.last().t));
                 return;
             }
         }
+        let Self { mechanism, integrator, .. } = self;
         integrator.interpolate(mechanism, t, &mut self.y);
         self.compared = t;
         let system = &mechanism.system;
@@ -135,6 +132,26 @@ impl Companion {
         // A comparison that is false for NaN as well.
         let near = apart(system, y, &self.y) < LOST * system.length;
         self.lost = (!near).then_some(Lost::TooLarge(t));
+    }
+
+    /// Takes the last step of the first one beside it, if that is where it stands.
+    fn follow(&mut self, first: &Integrator) -> bool {
+        let beside = self.integrator.last().t == first.last().t_old;
+        beside && self.integrator.follow(&mut self.mechanism, first)
+    }
+
+    /// Takes a step of its own. False if it cannot.
+    fn step(&mut self, first: &Integrator) -> bool {
+        let StepRecord { t, h, .. } = *first.last();
+        let now = self.integrator.last().t;
+        let mut to = self.mechanism.system.model.settings.duration;
+        if self.alike && h > 0.0 {
+            to = to.min(now + SHORTER * h);
+            if first.leader().is_some() && now < t {
+                to = to.min(t);
+            }
+        }
+        self.integrator.step(&mut self.mechanism, to).is_ok()
     }
 
     /// Writes the error of y at time t, if the two were compared last then.

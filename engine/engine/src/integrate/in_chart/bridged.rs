@@ -7,6 +7,7 @@ use super::within::{InChart, Start};
 use crate::integrate::explicit::{DOP853, Explicit};
 use crate::integrate::step::{StepRecord, Steps, StopReason};
 use crate::integrate::stepper::{IslandStep, Stepper};
+use std::any::Any;
 use triad_dynamics::constraints::mechanism::Mechanism;
 
 /// A method in the coordinates of a chart, and the one that bridges the places without any.
@@ -140,6 +141,21 @@ impl<S: Start> Stepper for Bridged<S> {
 
     fn island_step<'a>(&'a self, mechanism: &'a Mechanism) -> Option<IslandStep<'a>> {
         self.stepper()?.island_step(mechanism)
+    }
+
+    fn leader(&self) -> Option<&dyn Any> {
+        if self.bridge.is_none() { self.inside.as_ref().map(|inside| inside as &dyn Any) } else { None }
+    }
+
+    fn follow(&mut self, mechanism: &mut Mechanism, other: &dyn Any) -> bool {
+        let inside = self.inside.as_mut().filter(|_| self.bridge.is_none());
+        let followed = inside
+            .zip(other.downcast_ref())
+            .is_some_and(|(inside, other): (_, &InChart<_>)| inside.follow_step(mechanism, other));
+        if followed {
+            self.record();
+        }
+        followed
     }
 
     fn can_retreat(&self) -> bool {

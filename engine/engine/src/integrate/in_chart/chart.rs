@@ -231,6 +231,28 @@ impl Chart {
         x
     }
 
+    /// Whether numbers η mean the same in another chart.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.base == other.base
+            && self.functionals == other.functionals
+            && self.numbers.is_same(&other.numbers)
+    }
+
+    /// A copy for a run that has used another chart of the same kind, `before`: takes what that had found, and writes its x = (η, η̇).
+    pub fn adopted(&self, before: &Self, found: &mut Guess, x: &mut [f64]) -> Option<Self> {
+        if !self.numbers.is_alike(&before.numbers) || self.freedoms() != before.freedoms() {
+            return None;
+        }
+        self.numbers.translate(&before.numbers, found.p.as_mut_slice(), found.p_dot.as_mut_slice());
+        self.coordinates(found, x);
+        found.eta.copy_from_slice(&x[..self.freedoms()]);
+        found.taken.0.copy_from(&found.p);
+        found.taken.1.copy_from(&found.eta);
+        found.iterations = 0;
+        found.tilt.forget();
+        Some(self.clone())
+    }
+
     /// Counts whole turns from what was found.
     pub fn commit(&mut self, found: &Guess) {
         self.numbers.commit(found.p.as_slice());

@@ -212,6 +212,19 @@ impl Numbers {
         }
     }
 
+    /// Whether they are of the same kind.
+    pub fn is_alike(&self, other: &Self) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
+
+    /// Whether they are the same: then equal ones describe equal states.
+    pub fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Joints { tree, .. }, Self::Joints { tree: other, .. }) => tree.is_same(other),
+            _ => self.is_alike(other),
+        }
+    }
+
     /// Takes (p, ṗ) among the numbers before a restart over into these.
     pub fn translate(&self, before: &Self, p: &mut [f64], p_dot: &mut [f64]) {
         if let (Self::Joints { tree, .. }, Self::Joints { tree: before, .. }) = (self, before) {

@@ -196,6 +196,11 @@ impl Tree {
         self.translate(&before, s, rates);
     }
 
+    /// Whether its coordinates are those of another tree of the same mechanism.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.edges.iter().zip(&other.edges).all(|(edge, other)| edge.is_same(other))
+    }
+
     /// Takes coordinates and rates of this tree before it was restarted, `other`, over into those that it has now.
     pub fn translate(&self, other: &Self, s: &mut [f64], rates: &mut [f64]) {
         for (edge, other) in self.edges.iter().zip(&other.edges).filter(|(edge, other)| !edge.is_same(other))

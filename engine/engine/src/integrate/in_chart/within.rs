@@ -90,6 +90,10 @@ impl OdeSystem for InCoordinates<'_> {
         self.write_rate(x, false, rate);
     }
 
+    fn reach(&mut self, t: f64, x: &[f64]) -> bool {
+        self.find(t, x)
+    }
+
     fn power_at(&mut self, t: f64, x: &[f64]) -> Option<f64> {
         if !self.find(t, x) {
             return None;
@@ -244,6 +248,40 @@ impl<M: OdeMethod> InChart<M> {
         }
     }
 
+    /// Takes the last step of another run, in the coordinates of that one's chart. False, and nothing has changed but perhaps
+    /// those, where that is not possible.
+    pub fn follow_step(&mut self, mechanism: &mut Mechanism, other: &Self) -> bool {
+        if !self.chart.is_same(&other.chart) && !self.adopt(mechanism, &other.chart) {
+            return false;
+        }
+        let Self { method, chart, guess, at_stages, guess_old, .. } = self;
+        guess_old.copy_from(guess);
+        let mut system = InCoordinates::new(mechanism, (chart, guess, at_stages));
+        if !method.follow(&mut system, &other.method) {
+            return false;
+        }
+        self.y_old.copy_from_slice(&self.last.y);
+        write_state(mechanism, &mut self.last.y);
+        self.take_over_record();
+        true
+    }
+
+    /// Takes another chart of the same kind for its own.
+    fn adopt(&mut self, mechanism: &mut Mechanism, other: &Chart) -> bool {
+        let Some(chart) = other.adopted(&self.chart, &mut self.guess, &mut self.x) else { return false };
+        self.chart = chart;
+        let Self { method, chart, guess, at_stages, x, .. } = self;
+        at_stages.clear();
+        let mut system = InCoordinates::new(mechanism, (chart, guess, at_stages));
+        method.restart(&mut system, x, &[]);
+        true
+    }
+
+    fn take_over_record(&mut self) {
+        let StepRecord { t, t_old, h, steps, .. } = *self.method.last();
+        self.last = StepRecord { t, t_old, h, steps, y: std::mem::take(&mut self.last.y) };
+    }
+
     /// The state at time t within the last step from those at its ends, by cubics.
     fn interpolate_ends(&self, t: f64, y: &mut [f64]) {
         let n = y.len() / 2;
@@ -263,8 +301,7 @@ impl<M: OdeMethod> Stepper for InChart<M> {
 
     fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason> {
         let result = self.take_step(mechanism, end);
-        let StepRecord { t, t_old, h, steps, .. } = *self.method.last();
-        self.last = StepRecord { t, t_old, h, steps, y: std::mem::take(&mut self.last.y) };
+        self.take_over_record();
         result
     }
 

@@ -1,5 +1,7 @@
 //! The stages of a step and Newton's method for them, in the coordinates in which A⁻¹ falls into blocks.
 
+mod beside;
+
 use super::coefficients::{Method, RADAU_9, RadauTables};
 use super::linear::{Factors, RateJacobian};
 use super::updates::Updates;
@@ -274,7 +276,12 @@ impl Stages {
                 self.z[stage][i] = self.polynomial(i) - self.z_old[s - 1][i];
             }
         }
-        let inverse = &self.method.t_inverse;
+        self.turn_over();
+    }
+
+    /// w = T⁻¹ z.
+    fn turn_over(&mut self) {
+        let (s, inverse) = (self.z.len(), &self.method.t_inverse);
         for (k, w) in self.w.iter_mut().enumerate() {
             for (i, w) in w.iter_mut().enumerate() {
                 *w = (0..s).map(|j| inverse[(k, j)] * self.z[j][i]).sum();
