@@ -11,6 +11,8 @@ mod updates;
 
 mod stages;
 
+mod differences;
+
 mod beside;
 
 use super::step::{MIN_ERROR, SAFETY, StepRecord, StopReason, weighted_norm};
@@ -31,8 +33,6 @@ const AT_ORDER_9: f64 = 3e-8;
 const CONTRACTION: f64 = 0.25;
 /// Ratio of successive corrections above which the next step gets a new Jacobian matrix.
 const SLOW: f64 = 1e-2;
-/// Part of a step at which its Jacobian matrix is taken: it differs least from those of all stages there.
-const MIDDLE: f64 = 0.5;
 /// Part of their size by which the coordinates may change in the first step, before its error is known.
 const FIRST_CHANGE: f64 = 1e-2;
 /// The first step where nothing moves yet, s.
@@ -196,51 +196,6 @@ impl Radau {
         system.begin_stage(self.stages.z.len() - 1, false);
         system.rhs(time, &self.trial, &mut self.trial_rate);
         self.trial_rate.iter().all(|x| x.is_finite())
-    }
-
-    /// Columns of ∂η̈/∂(η, η̇) by differences, in the middle of the step that is to come where the last one foresees it, and
-    /// where there are states, else at its start.
-    fn differentiate(&mut self, system: &mut impl OdeSystem) -> Result<(), StopReason> {
-        let mut at = self.last.y.clone();
-        let foreseen = self.stages.foresee(&self.last, self.h, MIDDLE, &mut at)
-            && self.differentiate_at(system, self.last.t + MIDDLE * self.h, &at);
-        if !foreseen {
-            at.copy_from_slice(&self.last.y);
-            if !self.differentiate_at(system, self.last.t, &at) {
-                return Err(self.last.not_finite());
-            }
-        }
-        (self.jacobian.fresh, self.jacobian.valid) = (true, true);
-        self.factors = None;
-        Ok(())
-    }
-
-    /// The same at (t, x). False if a column is not finite.
-    fn differentiate_at(&mut self, system: &mut impl OdeSystem, t: f64, x: &[f64]) -> bool {
-        let (n, f) = (x.len(), x.len() / 2);
-        let mut at_rest = vec![0.0; n];
-        self.trial.copy_from_slice(x);
-        system.rhs(t, x, &mut at_rest);
-        // Rates first: they leave the positions as they are.
-        (f..n).chain(0..f).all(|place| {
-            // In the size in which errors are measured: x itself may be rounding of zero.
-            let step = f64::EPSILON.sqrt() / scale(place, n, x[place], 1.0);
-            self.trial[place] = x[place] + step;
-            let step = self.trial[place] - x[place];
-            if place < f {
-                system.rhs(t, &self.trial, &mut self.trial_rate);
-            } else {
-                system.rhs_at_rates(t, &self.trial, &mut self.trial_rate);
-            }
-            self.trial[place] = x[place];
-            let RateJacobian { stiffness, damping, .. } = &mut self.jacobian;
-            let mut column =
-                if place < f { stiffness.column_mut(place) } else { damping.column_mut(place - f) };
-            for i in 0..f {
-                column[i] = (self.trial_rate[f + i] - at_rest[f + i]) / step;
-            }
-            column.iter().all(|x| x.is_finite())
-        })
     }
 
     /// Prepares another attempt after a step of size h whose equations were not solved.

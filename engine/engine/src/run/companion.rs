@@ -117,7 +117,8 @@ impl Companion {
             return;
         }
         while self.integrator.last().t < t {
-            if !(self.alike && self.follow(first)) && !self.step(first) {
+            let followed = self.alike && self.follow(first);
+            if !followed && !self.step(first) {
                 self.lost = Some(Lost::Stopped(self.integrator.last().t));
                 return;
             }

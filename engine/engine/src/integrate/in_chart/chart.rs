@@ -134,7 +134,7 @@ impl Chart {
         self.basis.ncols()
     }
 
-    /// Whether the numbers place the mechanism by themselves: no constraint is left to be solved.
+    /// Whether the numbers place the mechanism by themselves: no constraint is left to be solved. Z and L are diagonal then.
     fn is_open(&self) -> bool {
         self.basis.nrows() == self.basis.ncols() && matches!(self.numbers, Numbers::Joints { .. })
     }
@@ -261,6 +261,12 @@ impl Chart {
     /// Writes η̈ = L p̈ at the state in place, which is the guess; `moved` says that the positions are others than last time.
     pub fn accelerate(&mut self, mechanism: &mut Mechanism, guess: &Guess, moved: bool, out: &mut [f64]) {
         self.numbers.accelerate(mechanism, &guess.p_dot, moved, &mut self.change);
+        if self.is_open() {
+            for (i, out) in out.iter_mut().enumerate() {
+                *out = self.functionals[(i, i)] * self.change[i];
+            }
+            return;
+        }
         self.gap.gemv(1.0, &self.functionals, &self.change, 0.0);
         out.copy_from_slice(self.gap.as_slice());
     }
@@ -301,8 +307,9 @@ impl Chart {
     fn find_position(&mut self, mechanism: &mut Mechanism, eta: &[f64], guess: &mut Guess) -> bool {
         if self.is_open() {
             guess.eta.copy_from_slice(eta);
-            guess.p.copy_from(&self.base);
-            guess.p.gemv(1.0, &self.basis, &guess.eta, 1.0);
+            for (i, eta) in eta.iter().enumerate() {
+                guess.p[i] = self.base[i] + self.basis[(i, i)] * eta;
+            }
             return self.numbers.place(mechanism, guess.p.as_slice());
         }
         self.gap.copy_from_slice(eta);
@@ -333,8 +340,9 @@ impl Chart {
     /// Φ_p ṗ = ν with L ṗ = η̇, at the position in place — eq. (10.4).
     pub fn find_velocity(&mut self, mechanism: &mut Mechanism, eta_dot: &[f64], guess: &mut Guess) -> bool {
         if self.is_open() {
-            self.gap.copy_from_slice(eta_dot);
-            guess.p_dot.gemv(1.0, &self.basis, &self.gap, 0.0);
+            for (i, eta_dot) in eta_dot.iter().enumerate() {
+                guess.p_dot[i] = self.basis[(i, i)] * eta_dot;
+            }
             self.numbers.move_at(mechanism, guess.p_dot.as_slice());
             return true;
         }
@@ -360,6 +368,11 @@ impl Chart {
         mechanism.set_state(t, y);
         if !self.numbers.place(mechanism, guess.p.as_slice()) {
             return None;
+        }
+        if self.is_open() {
+            // Each coordinate by itself.
+            let weights = self.numbers.weights(mechanism);
+            return Some(DMatrix::from_diagonal(&weights.map(|w| 1.0 / w.sqrt())));
         }
         let mut twists = tangent::twists(&mechanism.system, &mechanism.state, &mut mechanism.elimination);
         if twists.ncols() != f {

@@ -61,6 +61,48 @@ pub struct Edge {
     screws: Vec<Screw>,
     /// Placement of the body seen from the other where all coordinates are zero.
     start: Placement,
+    /// Its motion where it has one coordinate.
+    one: Option<Box<OneScrew>>,
+}
+
+/// A motion by one screw, whose placement is a + b sin s + c (1 − cos s) + d s with constant parts.
+#[derive(Clone, Debug)]
+struct OneScrew {
+    turning: Placement,
+    turned: Placement,
+    slide: Vector3<f64>,
+    twist: Twist,
+    turn: f64,
+}
+
+impl OneScrew {
+    /// From x ↦ R (x − p) + p + d s after the start, R = 1 + K sin s + K² (1 − cos s).
+    fn new(screw: &Screw, start: &Placement) -> Self {
+        let cross = screw.axis.cross_matrix();
+        let first = Placement { turn: start.turn, at: start.at - screw.point };
+        let by = |turn: Matrix3<f64>| Placement { turn: turn * first.turn, at: turn * first.at };
+        let turning = by(cross);
+        let again = cross * cross;
+        Self {
+            turning,
+            turned: by(again),
+            slide: screw.axis * screw.slide,
+            twist: screw.twist(),
+            turn: screw.turn,
+        }
+    }
+
+    fn placement(&self, start: &Placement, s: f64) -> Placement {
+        let mut at = *start;
+        if self.turn != 0.0 {
+            let angle = self.turn * s;
+            let (sin, versine) = (libm::sin(angle), 1.0 - libm::cos(angle));
+            at.turn += self.turning.turn * sin + self.turned.turn * versine;
+            at.at += self.turning.at * sin + self.turned.at * versine;
+        }
+        at.at += self.slide * s;
+        at
+    }
 }
 
 /// Number of screws of a joint, if its motions are a product of screws.
@@ -108,14 +150,18 @@ impl Edge {
             | JointGeometry::PointInPlane
             | JointGeometry::Gear { .. } => Vec::new(),
         };
-        Self { body, parent, first, screws, start }
+        let one = match screws[..] {
+            [ref screw] => Some(Box::new(OneScrew::new(screw, &start))),
+            _ => None,
+        };
+        Self { body, parent, first, screws, start, one }
     }
 
     /// A body that moves freely.
     pub fn free([body, first]: [usize; 2], start: Placement) -> Self {
         let mut screws: Vec<Screw> = axes().map(|axis| Screw::slide(axis, start.at)).into();
         screws.extend(turns(start.at));
-        Self { body, parent: None, first, screws, start }
+        Self { body, parent: None, first, screws, start, one: None }
     }
 
     /// Its coordinates among all.
@@ -131,6 +177,10 @@ impl Edge {
     /// Placement of the body seen from the other at its coordinates s; writes the twists of the coordinates, in the frame of
     /// the other.
     pub fn relative(&self, s: &[f64], twists: &mut [Twist]) -> Placement {
+        if let (Some(one), [s], [twist]) = (&self.one, s, &mut *twists) {
+            *twist = one.twist;
+            return one.placement(&self.start, *s);
+        }
         let mut moved = Placement::identity();
         for ((screw, s), twist) in self.screws.iter().zip(s).zip(twists) {
             *twist = moved.carry(&screw.twist());

@@ -23,6 +23,16 @@ impl Placement {
         Self { turn: self.turn * first.turn, at: self.turn * first.at + self.at }
     }
 
+    /// Where the unit vectors come to point: the directors of a body.
+    pub fn directors(&self) -> [Vector3<f64>; 3] {
+        let m = &self.turn;
+        [
+            Vector3::new(m.m11, m.m21, m.m31),
+            Vector3::new(m.m12, m.m22, m.m32),
+            Vector3::new(m.m13, m.m23, m.m33),
+        ]
+    }
+
     /// This placement as seen from another one.
     pub fn seen_from(&self, other: &Self) -> Self {
         Self { turn: other.turn.tr_mul(&self.turn), at: other.turn.tr_mul(&(self.at - other.at)) }

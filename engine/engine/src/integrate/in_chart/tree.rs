@@ -106,15 +106,14 @@ impl Tree {
             let twists = &mut self.twists[edge.range()];
             let mut at = edge.relative(&s[edge.range()], twists);
             if let Some(parent) = edge.parent {
-                let parent = self.placements[parent];
+                let parent = &self.placements[parent];
                 at = parent.after(&at);
                 for twist in twists.iter_mut() {
                     *twist = parent.carry(twist);
                 }
             }
             self.placements[edge.body] = at;
-            let e = [0, 1, 2].map(|k| at.turn.column(k).into_owned());
-            self.natural[edge.body] = NaturalCoordinates { r: at.at, e };
+            self.natural[edge.body] = NaturalCoordinates { r: at.at, e: at.directors() };
         }
         Some(&self.natural)
     }
@@ -129,7 +128,8 @@ impl Tree {
             }
             self.velocities[edge.body] = velocity;
             let at = &self.placements[edge.body];
-            let e = [0, 1, 2].map(|k| velocity.spin.cross(&at.turn.column(k).into_owned()));
+            let [u, v, w] = at.directors();
+            let e = [velocity.spin.cross(&u), velocity.spin.cross(&v), velocity.spin.cross(&w)];
             self.natural[edge.body] = NaturalCoordinates { r: velocity.at(&at.at), e };
         }
         &self.natural

@@ -6,7 +6,7 @@
 
 use super::spatial::Twist;
 use super::tree::Tree;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use std::ops::AddAssign;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::system::System;
@@ -34,32 +34,45 @@ impl AddAssign for Wrench {
     }
 }
 
-/// Mass, first moments and inertia about the point of reference.
+/// Mass, first moments and inertia about the point of reference: xx, yy, zz, yz, xz, xy.
 #[derive(Clone, Copy, Debug, Default)]
 struct Inertia {
     mass: f64,
     first: Vector3<f64>,
-    about: Matrix3<f64>,
+    about: [f64; 6],
 }
 
 impl Inertia {
     /// Of a body at q, seen from `center`.
     fn of(body: &RigidBody, q: &NaturalCoordinates, center: &Vector3<f64>) -> Self {
-        let arm = q.r - center;
-        let mut about = Matrix3::from_diagonal_element(body.ibar.sum() + body.mass * arm.norm_squared());
-        about -= arm * (arm * body.mass).transpose();
+        let (arm, mass) = (q.r - center, body.mass);
+        let first = arm * mass;
+        let mut squares = [
+            arm.x * first.x,
+            arm.y * first.y,
+            arm.z * first.z,
+            arm.y * first.z,
+            arm.x * first.z,
+            arm.x * first.y,
+        ];
         for (e, i) in q.e.iter().zip(body.ibar.iter()) {
-            about -= e * (e * *i).transpose();
+            let p = e * *i;
+            let more = [e.x * p.x, e.y * p.y, e.z * p.z, e.y * p.z, e.x * p.z, e.x * p.y];
+            squares.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
         }
-        Self { mass: body.mass, first: arm * body.mass, about }
+        let [xx, yy, zz, yz, xz, xy] = squares;
+        Self { mass, first, about: [yy + zz, xx + zz, xx + yy, -yz, -xz, -xy] }
     }
 
     /// The momentum at a twist, whose flow is that of the point of reference.
     fn momentum(&self, Twist { spin, flow }: &Twist) -> Wrench {
-        Wrench {
-            force: flow * self.mass + spin.cross(&self.first),
-            moment: self.about * spin + self.first.cross(flow),
-        }
+        let [xx, yy, zz, yz, xz, xy] = self.about;
+        let turning = Vector3::new(
+            xx * spin.x + xy * spin.y + xz * spin.z,
+            xy * spin.x + yy * spin.y + yz * spin.z,
+            xz * spin.x + yz * spin.y + zz * spin.z,
+        );
+        Wrench { force: flow * self.mass + spin.cross(&self.first), moment: turning + self.first.cross(flow) }
     }
 }
 
@@ -67,7 +80,7 @@ impl AddAssign for Inertia {
     fn add_assign(&mut self, other: Self) {
         self.mass += other.mass;
         self.first += other.first;
-        self.about += other.about;
+        self.about.iter_mut().zip(other.about).for_each(|(sum, more)| *sum += more);
     }
 }
 

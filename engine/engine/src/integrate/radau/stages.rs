@@ -6,7 +6,7 @@ use super::coefficients::{Method, RADAU_9, RadauTables};
 use super::linear::{Factors, RateJacobian};
 use super::updates::Updates;
 use crate::integrate::step::StepRecord;
-use nalgebra::{Complex, DVector};
+use nalgebra::{Complex, DMatrix, DVector};
 use triad_dynamics::ode::OdeSystem;
 
 /// Rounding of the stages to which Newton's method goes on, and below which it may end where its corrections shrink no further.
@@ -42,8 +42,9 @@ pub struct Stages {
     pub z_old: Vec<Vec<f64>>,
     /// T⁻¹ z.
     w: Vec<Vec<f64>>,
-    /// ẋ at the stages.
+    /// ẋ at the stages, f, and T⁻¹ f.
     f: Vec<Vec<f64>>,
+    forward: Vec<Vec<f64>>,
     /// Power at the stages, W, and at those of the last accepted step; zero where nothing changes the energy.
     power: Vec<f64>,
     power_old: Vec<f64>,
@@ -69,6 +70,17 @@ pub fn scale(i: usize, n: usize, y: f64, estimated: f64) -> f64 {
     1.0 / (estimated * if 2 * i < n { 1.0 } else { 1.0 + y.abs() })
 }
 
+/// Each row of the matrix as the weights of a sum.
+fn combine(weights: &DMatrix<f64>, from: &[Vec<f64>], out: &mut [Vec<f64>]) {
+    for (row, out) in out.iter_mut().enumerate() {
+        out.fill(0.0);
+        for (column, from) in from.iter().enumerate() {
+            let weight = weights[(row, column)];
+            out.iter_mut().zip(from).for_each(|(out, x)| *out += weight * x);
+        }
+    }
+}
+
 impl Stages {
     /// Allocates for n numbers.
     pub fn new(tables: &'static RadauTables, n: usize) -> Self {
@@ -81,6 +93,7 @@ impl Stages {
             z_old: zeros(),
             w: zeros(),
             f: zeros(),
+            forward: zeros(),
             power: vec![0.0; s],
             power_old: vec![0.0; s],
             trial: vec![0.0; n],
@@ -222,14 +235,12 @@ impl Stages {
 
     /// The correction of all stages by Newton's method, as one of w.
     fn correct(&mut self, jacobian: &RateJacobian, factors: &mut Factors) {
-        let Self { method, f, w, real, pair, updates, .. } = self;
+        let Self { method, f, w, forward, real, pair, updates, .. } = self;
         let (h, tables, n) = (factors.h, method.tables, real.len());
-        let forward = |k: usize, i: usize| -> f64 {
-            f.iter().enumerate().map(|(j, f)| method.t_inverse[(k, j)] * f[i]).sum()
-        };
+        combine(&method.t_inverse, f, forward);
         let correction = updates.next();
         for i in 0..n {
-            real[i] = forward(0, i) - tables.real / h * w[0][i];
+            real[i] = forward[0][i] - tables.real / h * w[0][i];
         }
         factors.solve_real(jacobian, tables, real);
         correction[..n].copy_from_slice(real.as_slice());
@@ -237,7 +248,7 @@ impl Stages {
             let (k, mu) = (1 + 2 * place, eigenvalue / h);
             for i in 0..n {
                 pair[i] =
-                    Complex::new(forward(k, i), forward(k + 1, i)) - mu * Complex::new(w[k][i], w[k + 1][i]);
+                    Complex::new(forward[k][i], forward[k + 1][i]) - mu * Complex::new(w[k][i], w[k + 1][i]);
             }
             factors.solve_pair(jacobian, tables, place, pair);
             for i in 0..n {
@@ -248,17 +259,12 @@ impl Stages {
 
     /// Applies the improved correction.
     fn apply(&mut self) {
-        let (n, s) = (self.trial.len(), self.z.len());
+        let n = self.trial.len();
         let correction = self.updates.last();
         for (w, correction) in self.w.iter_mut().zip(correction.chunks_exact(n)) {
             w.iter_mut().zip(correction).for_each(|(w, correction)| *w += correction);
         }
-        let t = &self.method.t;
-        for (stage, z) in self.z.iter_mut().enumerate() {
-            for (i, z) in z.iter_mut().enumerate() {
-                *z = (0..s).map(|k| t[(stage, k)] * self.w[k][i]).sum();
-            }
-        }
+        combine(&self.method.t, &self.w, &mut self.z);
     }
 
     /// First stages: from the polynomial of the last step, or none.
@@ -281,12 +287,7 @@ impl Stages {
 
     /// w = T⁻¹ z.
     fn turn_over(&mut self) {
-        let (s, inverse) = (self.z.len(), &self.method.t_inverse);
-        for (k, w) in self.w.iter_mut().enumerate() {
-            for (i, w) in w.iter_mut().enumerate() {
-                *w = (0..s).map(|j| inverse[(k, j)] * self.z[j][i]).sum();
-            }
-        }
+        combine(&self.method.t_inverse, &self.z, &mut self.w);
     }
 
     /// Adds to the end of the last step what its polynomial foresees for the part `part` of a step of size h, if that is not too far.

@@ -1,6 +1,6 @@
 //! The stages of a step that another run has taken with fewer of them.
 
-use super::{DIVERGING, DIVERGING_AT_FIRST, ROUNDING, Stages, scale};
+use super::{DIVERGING, DIVERGING_AT_FIRST, ROUNDING, Stages, combine, scale};
 use crate::integrate::radau::linear::{Factors, RateJacobian};
 use crate::integrate::step::StepRecord;
 use nalgebra::DMatrix;
@@ -24,11 +24,7 @@ impl Stages {
         (jacobian, factors): (&RateJacobian, &mut Factors),
         (other, between, end): (&Self, &DMatrix<f64>, &[f64]),
     ) -> bool {
-        for (stage, z) in self.z.iter_mut().enumerate() {
-            for (i, z) in z.iter_mut().enumerate() {
-                *z = other.z_old.iter().enumerate().map(|(k, other)| between[(stage, k)] * other[i]).sum();
-            }
-        }
+        combine(between, &other.z_old, &mut self.z);
         self.turn_over();
         self.scale.clear();
         self.scale.extend(last.y.iter().enumerate().map(|(i, y)| scale(i, last.y.len(), *y, 1.0)));
