@@ -11,16 +11,20 @@ use triad_dynamics::state;
 /// tighter ones the implicit method takes more steps, the series dearer ones.
 const MANY_DECAYS: f64 = 1.5e3;
 const DECAYS_A_RADIAN: f64 = 200.0;
-/// The same on open trees. Measured in processor time with the estimate of errors, both cost the same at 1.4e3 decays on three rods in
-/// 4 s, at 3e3 on eight, and at 2.3e3 on the flyball governor in 10 s.
-const MANY_DECAYS_OPEN: f64 = 7e2;
-const DECAYS_A_RADIAN_OPEN: f64 = 25.0;
-/// Radians of an oscillation that may be left out that are as costly for the series as a decay.
+/// The same on open trees, for each freedom to the power `FREEDOMS_OPEN`, at the tolerance `MIDDLE_TOLERANCE`; at others times the ratio of
+/// the two to the power `LOOSER_OPEN`. Counted in instructions with the estimate of errors, both cost the same at 5e2, 8e2 and 1.1e3 decays on
+/// three rods in 4 s at 1e-3, 1e-6 and 1e-9, at 2.1e3, 2.5e3 and 4.4e3 on eight, and at 1.3e3, 1.2e3 and 2.1e3 on the flyball governor in 10 s.
+const MANY_DECAYS_OPEN: f64 = 185.0;
+const DECAYS_A_RADIAN_OPEN: f64 = 1.5;
+const FREEDOMS_OPEN: f64 = 1.2;
+const MIDDLE_TOLERANCE: f64 = 1e-6;
+const LOOSER_OPEN: f64 = -0.055;
+/// Radians of an oscillation that may be left out that are as costly for the series as a decay, and the same on open trees.
 const RADIANS_A_DECAY: f64 = 0.4;
+const RADIANS_A_DECAY_OPEN: f64 = 1.0;
 /// Freedoms that make an evaluation of the implicit method twice as dear, for its Jacobian matrix, and how much dearer it is
 /// where loops must be closed.
 const MANY_FREEDOMS: f64 = 16.0;
-const MANY_FREEDOMS_OPEN: f64 = 4.0;
 const CLOSED: f64 = 3.0;
 /// Rate of an oscillation's coordinate above which it counts as excited, in tolerances times the length of the mechanism for each
 /// second: only what is smaller may be left out.
@@ -37,7 +41,7 @@ pub fn stiffness(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Option<String>
         return None;
     }
     let length = mechanism.system.length;
-    let many = many_decays(mechanism, freedoms, y);
+    let [many, many_radians] = many_decays(mechanism, freedoms, y);
     let mut rate = vec![0.0; y.len()];
     mechanism.rhs(t, y, &mut rate);
     let n = mechanism.system.coordinates;
@@ -65,15 +69,15 @@ pub fn stiffness(mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Option<String>
         }
         let omega = (stiffness * mobility).sqrt();
         let excited = (acceleration / omega).max(speed);
-        if omega * duration > RADIANS_A_DECAY * many && excited <= EXCITED * tolerance * length {
+        if omega * duration > many_radians && excited <= EXCITED * tolerance * length {
             return Some(format!("spring \"{name}\" could oscillate at {omega:.0e} rad/s, but does not"));
         }
     }
     None
 }
 
-/// Decays in the run above which an implicit method pays.
-fn many_decays(mechanism: &Mechanism, freedoms: usize, y: &[f64]) -> f64 {
+/// Decays in the run, and radians of an oscillation that may be left out, above which an implicit method pays.
+fn many_decays(mechanism: &Mechanism, freedoms: usize, y: &[f64]) -> [f64; 2] {
     let system = &mechanism.system;
     let (settings, gravity) = (&system.model.settings, system.model.gravity.norm());
     // How far the mechanism moves, by its velocities or as a pendulum of its length would.
@@ -82,8 +86,13 @@ fn many_decays(mechanism: &Mechanism, freedoms: usize, y: &[f64]) -> f64 {
     let partitioned = settings.constraint_method == ConstraintMethod::Partitioning;
     if closed || partitioned || !system.frictions.is_empty() || system.regularizes_inertia() {
         let dearer = if closed { CLOSED } else { 1.0 };
-        (MANY_DECAYS + DECAYS_A_RADIAN * radians) * (1.0 + freedoms as f64 / MANY_FREEDOMS) * dearer
+        let many =
+            (MANY_DECAYS + DECAYS_A_RADIAN * radians) * (1.0 + freedoms as f64 / MANY_FREEDOMS) * dearer;
+        [many, RADIANS_A_DECAY * many]
     } else {
-        (MANY_DECAYS_OPEN + DECAYS_A_RADIAN_OPEN * radians) * (1.0 + freedoms as f64 / MANY_FREEDOMS_OPEN)
+        let looser = libm::pow(settings.tolerance / MIDDLE_TOLERANCE, LOOSER_OPEN);
+        let dearer = libm::pow(freedoms as f64, FREEDOMS_OPEN) * looser;
+        let many = (MANY_DECAYS_OPEN + DECAYS_A_RADIAN_OPEN * radians) * dearer;
+        [many, RADIANS_A_DECAY_OPEN * many]
     }
 }
