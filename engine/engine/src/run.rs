@@ -3,6 +3,7 @@
 mod energy_balance;
 mod singularity;
 
+mod examiner;
 mod frame;
 mod state_view;
 
@@ -34,6 +35,7 @@ use crate::integrate::{Integrator, StopReason};
 use crate::model::{CustomLoadError, Model};
 use crate::scene::IntegratorKind;
 use companion::Companion;
+use examiner::Examiner;
 use singularity::SingularityMonitor;
 use state_view::CachedState;
 use triad_dynamics::constraints::ConstraintError;
@@ -89,6 +91,8 @@ pub struct Simulation {
     counters: explain::RunCounters,
     /// Searches steps for singular configurations.
     singularities: SingularityMonitor,
+    /// Makes solvers for states that are looked at.
+    examiner: Examiner,
     /// The run before the steps that are being taken again to tell two branches of the motion apart.
     before_branching: Option<Box<Self>>,
 }

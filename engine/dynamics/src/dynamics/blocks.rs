@@ -1,6 +1,6 @@
 //! The layout of S, which never changes: which products of incidences make up its blocks — eq. (7.6).
 
-use crate::system::System;
+use crate::system::{Incidence, System};
 use triad_linalg::{BlockCholesky, block_cholesky};
 
 /// A product A_p D_b⁻¹ A_qᵀ of two incidences of one body, which is added to a block of S.
@@ -29,10 +29,15 @@ impl SchurLayout {
     /// Of a system: the blocks are its joints, and two of them meet where a body has both.
     pub fn new(system: &System) -> Self {
         let sizes: Vec<usize> = system.constraints.iter().map(|c| c.solver.len()).collect();
-        let with_rows = with_rows(system);
+        Self::of(system, &sizes)
+    }
+
+    /// The same with so many rows of each joint.
+    pub fn of(system: &System, sizes: &[usize]) -> Self {
+        let with_rows = with_rows(system, |incidence| sizes[incidence.constraint.index()]);
         let joint = |incidence: usize| system.incidences[incidence].constraint.index();
         let edges = pairs(&with_rows).map(|(_, p, q)| (joint(p), joint(q)));
-        let factor = BlockCholesky::new(&sizes, edges);
+        let factor = BlockCholesky::new(sizes, edges);
         let products = pairs(&with_rows).map(|(body, p, q)| {
             let slot = factor.slot(joint(p), joint(q));
             let (left, right) = if slot.transposed { (q, p) } else { (p, q) };
@@ -43,8 +48,9 @@ impl SchurLayout {
 }
 
 /// The incidences of each body whose joints have rows: one without (in the plane) shares no block.
-fn with_rows(system: &System) -> Vec<Vec<usize>> {
-    let rows = |list: &Vec<usize>| list.iter().copied().filter(|&i| system.incidences[i].rows > 0).collect();
+fn with_rows(system: &System, rows: impl Fn(&Incidence) -> usize) -> Vec<Vec<usize>> {
+    let rows =
+        |list: &Vec<usize>| list.iter().copied().filter(|&i| rows(&system.incidences[i]) > 0).collect();
     system.incidences_of_body.iter().map(rows).collect()
 }
 
@@ -60,7 +66,7 @@ fn pairs(with_rows: &[Vec<usize>]) -> impl Iterator<Item = (usize, usize, usize)
 /// more than any machine has.
 pub fn products_within(system: &System, most: usize) -> bool {
     let joint = |incidence: usize| system.incidences[incidence].constraint.index();
-    let edges = with_rows(system);
+    let edges = with_rows(system, |incidence| incidence.rows);
     let edges = pairs(&edges).map(|(_, p, q)| (joint(p), joint(q)));
     block_cholesky::products_within(system.constraints.len(), edges, most)
 }

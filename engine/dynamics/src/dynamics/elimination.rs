@@ -8,7 +8,9 @@
 mod factor;
 mod friction;
 mod idle;
+mod in_plane;
 mod increment;
+mod part;
 mod projectable;
 mod right_side;
 mod solution;
@@ -25,6 +27,7 @@ use crate::system::System;
 use crate::system::index::{ConstraintId, IncidenceId, SolverRow};
 use crate::system::natural::NaturalCoordinates;
 use friction::Frictions;
+use in_plane::InPlane;
 use nalgebra::{Matrix3, Vector3};
 use right_side::gram;
 use triad_linalg::BlockCholesky;
@@ -97,6 +100,11 @@ pub struct Elimination {
     regularizes_inertia: bool,
     /// Dry friction, if there is any.
     frictions: Option<Box<Frictions>>,
+    /// The solver rows that depend on others at every state.
+    dependent: Vec<SolverRow>,
+    /// The plane that the motion stays in, if one was looked for and found, and whether the last solution is from there.
+    plane: Option<Box<InPlane>>,
+    solved_in_plane: bool,
     /// Work done so far.
     pub counters: Counters,
 }
@@ -122,6 +130,9 @@ impl Elimination {
             resolving: false,
             regularizes_inertia: system.regularizes_inertia(),
             frictions: (!system.frictions.is_empty()).then(|| Box::new(Frictions::new(system))),
+            dependent: Vec::new(),
+            plane: None,
+            solved_in_plane: false,
             counters: Counters::default(),
         }
     }
@@ -140,6 +151,7 @@ impl Elimination {
     /// Says which solver rows depend on others at every state, so that S is singular there.
     pub fn set_dependent(&mut self, rows: &[SolverRow]) {
         self.redundant = !rows.is_empty();
+        self.dependent = rows.to_vec();
         self.factor.leave_out(rows.iter().map(|row| row.index()));
     }
 
@@ -183,6 +195,12 @@ impl Elimination {
 
     /// Solves the equations of motion with the applied forces in place.
     fn solve_motion(&mut self, system: &System, state: &State, baumgarte: (f64, f64)) {
+        self.set_right_side(system, state, baumgarte);
+        self.solve(system);
+    }
+
+    /// Sets wrenches and γ' of the equations of motion, with the applied forces in place.
+    fn set_right_side(&mut self, system: &System, state: &State, baumgarte: (f64, f64)) {
         let (damping, stiffness) = (2.0 * baumgarte.0, baumgarte.1 * baumgarte.1);
         let correction = move |value: f64, rate: f64| -damping * rate - stiffness * value;
         self.set_particular(system, state, true, |q, q_dot| {
@@ -193,7 +211,6 @@ impl Elimination {
             })
         });
         self.set_gamma(system, state, true, correction);
-        self.solve(system);
     }
 
     /// What [`Elimination::accelerate`] has found last, at the state that it was given.
@@ -243,10 +260,7 @@ impl Elimination {
 
     /// Solves for ξ̇ and λ with the wrenches and γ' in place, refined where S is regularized — eq. (7.7).
     fn solve(&mut self, system: &System) {
-        for (state, body) in self.bodies.iter_mut().zip(&system.bodies) {
-            state.twist = [state.wrench[0] / body.mass, state.inverse * state.wrench[1]];
-            state.returned = Vector3::zeros();
-        }
+        self.set_free_twists(system);
         // λ = S⁻¹ (A ξ₀ − γ'), ξ = ξ₀ − D⁻¹ Aᵀ λ.
         self.row_residual(system);
         self.factor.solve(&mut self.residual);
@@ -264,6 +278,14 @@ impl Elimination {
                 }
                 self.apply_multipliers(system);
             }
+        }
+    }
+
+    /// ξ ← ξ₀, the accelerations without joints.
+    fn set_free_twists(&mut self, system: &System) {
+        for (state, body) in self.bodies.iter_mut().zip(&system.bodies) {
+            state.twist = [state.wrench[0] / body.mass, state.inverse * state.wrench[1]];
+            state.returned = Vector3::zeros();
         }
     }
 

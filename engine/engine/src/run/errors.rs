@@ -1,11 +1,10 @@
 //! What the numbers of a run are worth: estimates of their errors — THEORY section 11.
 
+use super::Simulation;
 use super::companion::Lost;
 use super::state_view::CachedState;
-use super::{Simulation, StateView};
 use crate::scene::IntegratorKind;
 use serde::Serialize;
-use std::borrow::Cow;
 use triad_dynamics::state::BodyFrame;
 
 /// Estimated errors of the numbers of one state, each the largest over all bodies: what the run has collected since its start,
@@ -67,10 +66,9 @@ impl Simulation {
     }
 
     /// Estimated errors of the reactions at the current state; `None` as for [`Simulation::error_estimate`]. They are computed
-    /// a second time, without the error of the state.
+    /// a second time, without the error of the state: with what was found for the state, if that is near enough.
     pub fn reaction_errors(&self) -> Option<ReactionErrors> {
-        let (here, there) = (self.state(), StateView::new(self, Cow::Borrowed(self.better()?)));
-        let (here, there) = (here.solved().multipliers, there.solved().multipliers);
+        let [here, there] = self.current.both(self.better()?, self);
         let mut found = ReactionErrors::default();
         for constraint in &self.system().constraints {
             let (Some(a), Some(b)) = (here.joint_wrench(constraint), there.joint_wrench(constraint)) else {

@@ -1,6 +1,7 @@
 //! The start of a run: the scene is checked and assembled, its rank found, its integrator chosen.
 
 use super::companion::Companion;
+use super::examiner::Examiner;
 use super::singularity::SingularityMonitor;
 use super::state_view::CachedState;
 use super::{Simulation, explain};
@@ -116,6 +117,7 @@ impl Simulation {
             end,
             counters: explain::RunCounters::default(),
             singularities,
+            examiner: Examiner::default(),
             before_branching: None,
         };
         simulation.restart_events();

@@ -9,7 +9,7 @@ use std::borrow::Cow;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::Rank;
-use triad_dynamics::dynamics::elimination::{Accelerations, Elimination};
+use triad_dynamics::dynamics::elimination::{Accelerations, Elimination, Multipliers};
 use triad_dynamics::equations::jacobian::Jacobian;
 use triad_dynamics::model::{BodyRef, ModelMarker};
 use triad_dynamics::state::{BodyFrame, State};
@@ -129,6 +129,28 @@ impl CachedState {
             Some(better)
         };
         self.results.better.get_or_init(find).as_deref()
+    }
+
+    /// Multipliers of this state and of one nearby, which is this one without its error.
+    pub fn both<'a>(&'a self, better: &'a Self, run: &'a Simulation) -> [Multipliers<'a>; 2] {
+        let system = run.system();
+        let here = self.solver(run, None);
+        let there = better.solver(run, Some(here));
+        let (here, there) =
+            (here.last_accelerations(system, &self.state), there.last_accelerations(system, &better.state));
+        [here.multipliers, there.multipliers]
+    }
+
+    /// A solver with the accelerations and multipliers of this state, and what is known of one nearby.
+    fn solver(&self, run: &Simulation, near: Option<&Elimination>) -> &Elimination {
+        let Self { state, results, .. } = self;
+        results.solved.get_or_init(|| {
+            let spare = results.spare.lock().unwrap_or_else(PoisonError::into_inner).take();
+            let mut solver =
+                spare.unwrap_or_else(|| Box::new(run.examiner.solver(&run.mechanism, &run.start)));
+            solver.examine(run.system(), state, run.mechanism.baumgarte(), near);
+            solver
+        })
     }
 
     /// Time t, s.
@@ -283,13 +305,6 @@ impl<'a> StateView<'a> {
 
     /// Accelerations and multipliers of the state.
     pub(super) fn solved(&self) -> Accelerations<'_> {
-        let (mechanism, CachedState { state, results, .. }) = (&self.run.mechanism, &*self.cached);
-        let solver = results.solved.get_or_init(|| {
-            let spare = results.spare.lock().unwrap_or_else(PoisonError::into_inner).take();
-            let mut solver = spare.unwrap_or_else(|| Box::new(mechanism.elimination.clone()));
-            solver.accelerate(&mechanism.system, state, mechanism.baumgarte());
-            solver
-        });
-        solver.last_accelerations(&mechanism.system, state)
+        self.cached.solver(self.run, None).last_accelerations(self.system(), &self.cached.state)
     }
 }

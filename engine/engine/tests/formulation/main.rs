@@ -5,6 +5,7 @@ mod common;
 
 mod augmented;
 mod check_vectors;
+mod in_plane;
 mod matrices;
 mod reactions;
 mod rows;

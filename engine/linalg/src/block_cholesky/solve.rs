@@ -39,6 +39,31 @@ impl BlockCholesky {
         self.placed = placed;
     }
 
+    /// The same with the factor of another matrix of the same layout.
+    pub fn solve_with(&mut self, other: &Self, x: &mut [f64]) {
+        for (x, &place) in x.iter().zip(&self.places) {
+            self.placed[place] = *x;
+        }
+        other.solve_in_place(&mut self.placed);
+        for (x, &place) in x.iter_mut().zip(&self.places) {
+            *x = self.placed[place];
+        }
+    }
+
+    /// Takes out of a solution of S + ε diag(S), whose numbers stand at [`Self::places`], what it has along vectors that S takes to zero:
+    /// there is nothing else to tell but what rounding makes of it, divided by ε. The rest keeps its size to the part ε.
+    pub fn clean(&mut self, epsilon: f64, x: &mut [f64]) {
+        let mut placed = std::mem::take(&mut self.placed);
+        for (&place, diagonal) in self.places.iter().zip(&self.diagonal) {
+            placed[place] = epsilon * diagonal * x[place];
+        }
+        self.solve_in_place(&mut placed);
+        for &place in &self.places {
+            x[place] -= placed[place];
+        }
+        self.placed = placed;
+    }
+
     #[inline(always)]
     fn solve_here(&self, x: &mut [f64]) {
         for Run { pivots, alike } in &self.runs {

@@ -71,7 +71,7 @@ impl Elimination {
         self.factor.raise_shares(joints, shares);
     }
 
-    fn set_up(&mut self, system: &System, state: &State) {
+    pub(super) fn set_up(&mut self, system: &System, state: &State) {
         self.jacobian.fill(system, state);
         let bodies = system.bodies.iter().zip(state.bodies());
         for (solve, (body, at)) in self.bodies.iter_mut().zip(bodies) {
@@ -115,7 +115,11 @@ impl Elimination {
 }
 
 /// Inverse of I_g = Σ Ī_k (|e_k|² I − e_k e_kᵀ), with `regularization` added to its diagonal.
-fn inverse_inertia(q: &NaturalCoordinates, ibar: &Vector3<f64>, regularization: f64) -> Matrix3<f64> {
+pub(super) fn inverse_inertia(
+    q: &NaturalCoordinates,
+    ibar: &Vector3<f64>,
+    regularization: f64,
+) -> Matrix3<f64> {
     let mut inertia = Matrix3::from_diagonal_element(regularization);
     for k in 0..3 {
         let e = q.e[k];

@@ -53,7 +53,8 @@ impl<'a> Multipliers<'a> {
         let lambda = &self.lambda[self.system[constraint].solver.clone()];
         let mut wrench = [Vector3::zeros(); 2];
         let rows = self.jacobian.rows_on(self.system, incidence);
-        for (a, lambda) in rows.chunks_exact(6).zip(lambda) {
+        // Of hinges in a plane three rows out of five carry nothing.
+        for (a, lambda) in rows.chunks_exact(6).zip(lambda).filter(|(_, lambda)| **lambda != 0.0) {
             wrench[0] -= Vector3::new(a[0], a[1], a[2]) * *lambda;
             wrench[1] -= Vector3::new(a[3], a[4], a[5]) * *lambda;
         }

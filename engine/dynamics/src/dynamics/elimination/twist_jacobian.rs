@@ -41,11 +41,8 @@ impl TwistJacobian {
         for (index, row) in system.rows.iter().enumerate() {
             match row.form {
                 Form::Coincidence { a, b } => {
-                    for k in 0..3 {
-                        let g = Vector3::ith(k, 1.0);
-                        self.add_gradient(system, state, row, k, (0, a), &g);
-                        self.add_gradient(system, state, row, k, (1, b), &-g);
-                    }
+                    self.add_point(system, state, row, (0, a), 1.0);
+                    self.add_point(system, state, row, (1, b), -1.0);
                 }
                 Form::CommonVector { a, b } => {
                     self.transverse[index] = orthonormal_basis(&state.feature_value(a).normalize());
@@ -88,6 +85,33 @@ impl TwistJacobian {
                         }
                     }
                 }
+            }
+        }
+    }
+
+    /// Adds the three rows ±C of a point: those of the directions of the world, arm × e_k written out.
+    fn add_point(
+        &mut self,
+        system: &System,
+        state: &State,
+        row: &Row,
+        (place, feature): (usize, FeatureId),
+        sign: f64,
+    ) {
+        let incidence = row.incidence[place];
+        if incidence == NO_INCIDENCE {
+            return;
+        }
+        let at = system.incidences[incidence].offset + 6 * row.local;
+        let arm = state.feature_arm(feature) * sign;
+        let rows = self.a[at..].as_chunks_mut::<6>().0;
+        let moments = [[0.0, arm[2], -arm[1]], [-arm[2], 0.0, arm[0]], [arm[1], -arm[0], 0.0]];
+        for (k, (row, moment)) in rows.iter_mut().zip(&moments).enumerate() {
+            if system[feature].point {
+                row[k] += sign;
+            }
+            for c in 0..3 {
+                row[3 + c] += moment[c];
             }
         }
     }

@@ -1,0 +1,230 @@
+//! Equations of three of the six components of each body's twist, and of the rows that belong to them: S of a motion in a plane falls
+//! into one part in the plane and one across it.
+
+use crate::dynamics::blocks::{BlockProduct, SchurLayout};
+use crate::system::System;
+use triad_linalg::BlockCholesky;
+use triad_linalg::block_cholesky::stride;
+
+/// The rows of a joint on a body.
+#[derive(Clone, Debug)]
+struct Block {
+    body: usize,
+    /// Its rows among those of all blocks.
+    first: usize,
+    rows: usize,
+    /// Where its first row stands in right-hand sides.
+    place: usize,
+}
+
+/// What a part knows of a body.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct PartBody {
+    /// The inverse of its inertia: on the diagonal, and what the second and the third component share.
+    pub inverse: [f64; 4],
+    /// Three components of (v̇, ω̇).
+    pub twist: [f64; 3],
+}
+
+impl PartBody {
+    /// The inverse inertia times a wrench.
+    #[inline(always)]
+    fn accelerated(&self, wrench: [f64; 3]) -> [f64; 3] {
+        let [a, b, c, shared] = self.inverse;
+        let [x, y, z] = wrench;
+        [a * x, b * y + shared * z, shared * y + c * z]
+    }
+
+    /// ξ ← D⁻¹ (F, T).
+    pub fn push(&mut self, wrench: [f64; 3]) {
+        self.twist = self.accelerated(wrench);
+    }
+}
+
+/// The equations.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    /// Which components they are.
+    columns: [usize; 3],
+    factor: BlockCholesky,
+    products: Vec<BlockProduct>,
+    /// For each incidence.
+    blocks: Vec<Block>,
+    /// The solver rows, each with its place in right-hand sides.
+    rows: Vec<(usize, usize)>,
+    /// Where the rows of the blocks begin in A.
+    sources: Vec<usize>,
+    /// The rows of A, and A D⁻¹.
+    a: Vec<[f64; 3]>,
+    b: Vec<[f64; 3]>,
+    pub bodies: Vec<PartBody>,
+    lambda: Vec<f64>,
+    residual: Vec<f64>,
+    /// ε of the factor at hand.
+    epsilon: f64,
+}
+
+impl Part {
+    /// The equations of these solver rows and components.
+    pub fn new(system: &System, columns: [usize; 3], takes: impl Fn(usize) -> bool) -> Self {
+        let sizes: Vec<usize> =
+            system.constraints.iter().map(|c| c.solver.clone().filter(|&row| takes(row)).count()).collect();
+        let SchurLayout { factor, products } = SchurLayout::of(system, &sizes);
+        let (mut rows, mut first) = (Vec::new(), Vec::with_capacity(sizes.len()));
+        for constraint in &system.constraints {
+            first.push(rows.len());
+            for row in constraint.solver.clone().filter(|&row| takes(row)) {
+                rows.push((row, factor.places()[rows.len()]));
+            }
+        }
+        let (mut blocks, mut sources) = (Vec::with_capacity(system.incidences.len()), Vec::new());
+        for incidence in &system.incidences {
+            let constraint = incidence.constraint.index();
+            let place = rows.get(first[constraint]).map_or(0, |&(_, place)| place);
+            let (first, rows) = (sources.len(), sizes[constraint]);
+            blocks.push(Block { body: incidence.body, first, rows, place });
+            let own = system.constraints[constraint].solver.clone().enumerate();
+            sources.extend(own.filter(|&(_, row)| takes(row)).map(|(local, _)| incidence.offset + 6 * local));
+        }
+        Self {
+            columns,
+            products,
+            blocks,
+            rows,
+            a: vec![[0.0; 3]; sources.len()],
+            b: vec![[0.0; 3]; sources.len()],
+            sources,
+            bodies: vec![PartBody::default(); system.bodies.len()],
+            lambda: vec![0.0; factor.numbers()],
+            residual: vec![0.0; factor.numbers()],
+            epsilon: 0.0,
+            factor,
+        }
+    }
+
+    /// Its solver rows.
+    pub fn solver_rows(&self) -> impl Iterator<Item = usize> {
+        self.rows.iter().map(|&(row, _)| row)
+    }
+
+    /// Whether its rows have nothing of three other components in A.
+    pub fn has_nothing_of(&self, columns: [usize; 3], a: &[f64]) -> bool {
+        let [i, j, k] = columns;
+        self.sources.iter().all(|&at| a[at + i] == 0.0 && a[at + j] == 0.0 && a[at + k] == 0.0)
+    }
+
+    /// Takes its rows of A.
+    pub fn take(&mut self, a: &[f64]) {
+        let [i, j, k] = self.columns;
+        for (own, &at) in self.a.iter_mut().zip(&self.sources) {
+            *own = [a[at + i], a[at + j], a[at + k]];
+        }
+    }
+
+    /// Takes off from `wrenches` what the multipliers of its rows exert along three other components.
+    pub fn exert(&self, columns: [usize; 3], a: &[f64], wrenches: &mut [[f64; 3]]) {
+        for block in &self.blocks {
+            let wrench = &mut wrenches[block.body];
+            let sources = &self.sources[block.first..block.first + block.rows];
+            for (&at, lambda) in sources.iter().zip(&self.lambda[block.place..]) {
+                for (wrench, column) in wrench.iter_mut().zip(columns) {
+                    *wrench -= a[at + column] * lambda;
+                }
+            }
+        }
+    }
+
+    /// A D⁻¹ of the rows and inertias that were taken.
+    pub fn scale(&mut self) {
+        for block in &self.blocks {
+            let body = self.bodies[block.body];
+            let rows = block.first..block.first + block.rows;
+            for (a, b) in self.a[rows.clone()].iter().zip(&mut self.b[rows]) {
+                *b = body.accelerated(*a);
+            }
+        }
+    }
+
+    /// Factors its block of S, regularized by ε, and returns the smallest relative pivot.
+    pub fn factor(&mut self, epsilon: f64) -> f64 {
+        self.factor.clear();
+        let values = self.factor.values_mut();
+        for product in &self.products {
+            let [left, right] = [product.left, product.right].map(|incidence| &self.blocks[incidence]);
+            let a = &self.a[left.first..left.first + left.rows];
+            let b = &self.b[right.first..right.first + right.rows];
+            let target = values[product.offset..].chunks_exact_mut(stride(right.rows));
+            for (a, out) in a.iter().zip(target) {
+                for (b, out) in b.iter().zip(out) {
+                    *out += a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+                }
+            }
+        }
+        self.epsilon = epsilon;
+        self.factor.factor(epsilon, 0.0)
+    }
+
+    /// λ ← 0.
+    pub fn clear(&mut self) {
+        self.lambda.fill(0.0);
+    }
+
+    /// λ ← λ + S⁻¹ (A ξ − γ'), and ξ with it, by the factor of this part or of one of the same rows.
+    pub fn correct(&mut self, gamma: impl Fn(usize) -> f64, other: Option<&Self>) {
+        for &(row, place) in &self.rows {
+            self.residual[place] = -gamma(row);
+        }
+        for block in &self.blocks {
+            let [u, v, w] = self.bodies[block.body].twist;
+            let rows = &self.a[block.first..block.first + block.rows];
+            for (a, residual) in rows.iter().zip(&mut self.residual[block.place..]) {
+                *residual += a[0] * u + a[1] * v + a[2] * w;
+            }
+        }
+        let factor = other.map_or(&self.factor, |other| &other.factor);
+        factor.solve_in_place(&mut self.residual);
+        if self.epsilon > 0.0 {
+            self.factor.clean(self.epsilon, &mut self.residual);
+        }
+        self.apply();
+    }
+
+    /// λ ← λ + those of a part of the same rows, and ξ with it.
+    pub fn add(&mut self, other: &Self) {
+        self.residual.copy_from_slice(&other.lambda);
+        self.apply();
+    }
+
+    /// λ ← λ + x, ξ ← ξ − D⁻¹ Aᵀ x, x being the residual as multipliers.
+    fn apply(&mut self) {
+        for (lambda, change) in self.lambda.iter_mut().zip(&self.residual) {
+            *lambda += change;
+        }
+        for block in &self.blocks {
+            let twist = &mut self.bodies[block.body].twist;
+            let rows = &self.b[block.first..block.first + block.rows];
+            for (b, lambda) in rows.iter().zip(&self.residual[block.place..]) {
+                for c in 0..3 {
+                    twist[c] -= b[c] * lambda;
+                }
+            }
+        }
+    }
+
+    /// The largest of the last changes of the multipliers, and of the multipliers.
+    pub fn change(&self) -> [f64; 2] {
+        [&self.residual, &self.lambda].map(|x| x.iter().fold(0.0f64, |largest, x| largest.max(x.abs())))
+    }
+
+    /// The largest component of a twist.
+    pub fn largest_twist(&self) -> f64 {
+        self.bodies.iter().flat_map(|body| body.twist).fold(0.0, |largest: f64, x| largest.max(x.abs()))
+    }
+
+    /// Hands over its multipliers.
+    pub fn hand_over(&self, lambda: &mut [f64]) {
+        for &(row, place) in &self.rows {
+            lambda[row] = self.lambda[place];
+        }
+    }
+}
