@@ -10,11 +10,14 @@
 //! that a solve is a chain of short products without divisions.
 
 mod kernel;
+mod lanes;
 mod numeric;
 mod order;
 mod runs;
 mod solve;
 mod wide;
+
+pub use lanes::PivotLanes;
 
 use order::minimum_degree;
 use runs::Run;
@@ -402,6 +405,50 @@ mod tests {
             factor.factor(0.0, 0.0);
             factor.solve(x.as_mut_slice());
             prop_assert!((dense * x - b).amax() < 1e-12);
+        }
+
+        #[test]
+        fn pivots_of_several_matrices_at_once_are_those_of_each(
+            sizes in prop::collection::vec(prop_oneof![4 => 1usize..6, 1 => 8usize..10], 1..12),
+            chain in any::<bool>(),
+            links in prop::collection::vec((0usize..12, 0usize..12), 0..20),
+            seed in any::<u64>(),
+        ) {
+            let count = sizes.len();
+            let sizes = if chain { vec![sizes[0].min(3); count] } else { sizes };
+            let row = (1..count).map(|i| (i - 1, i));
+            let edges: Vec<(usize, usize)> =
+                if chain { row.collect() } else { links.into_iter().map(|(i, j)| (i % count, j % count)).collect() };
+            let mut random = Random::new(seed);
+            let mut factor = BlockCholesky::new(&sizes, edges.iter().copied());
+            factor.keep_pivot_products();
+            let mut lanes = factor.pivot_lanes::<3>().unwrap();
+            let mut expected = Vec::new();
+            for lane in 0..3 {
+                factor.values_mut().iter_mut().for_each(|x| *x = random.between(-1.0, 1.0));
+                for (&size, block) in sizes.iter().zip(0..) {
+                    let slot = factor.slot(block, block);
+                    for i in 0..size {
+                        for k in 0..=i {
+                            let x = if i == k { 9.0 } else { random.between(-1.0, 1.0) };
+                            for (row, column) in [(i, k), (k, i)] {
+                                factor.values_mut()[slot.offset + row * stride(size) + column] = x;
+                            }
+                        }
+                    }
+                }
+                for (lanes, x) in lanes.values.iter_mut().zip(factor.values()) {
+                    lanes[lane] = *x;
+                }
+                factor.factor(0.0, 0.0);
+                expected.push(factor.pivot_products().to_vec());
+            }
+            factor.eliminate(&mut lanes);
+            for (lane, expected) in expected.iter().enumerate() {
+                for (found, expected) in lanes.pivot_products().iter().zip(expected) {
+                    prop_assert!((found[lane] - expected).abs() < 1e-9, "{found:?} {lane} {expected}");
+                }
+            }
         }
     }
 
