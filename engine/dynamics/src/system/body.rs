@@ -134,20 +134,35 @@ impl RigidBody {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanarPose {
     /// Directions in the plane and its normal, as columns.
-    pub frame: Matrix3<f64>,
+    frame: Matrix3<f64>,
     /// Directors u, v, w as columns: along z, across z, along the normal.
     pub directors: Matrix3<f64>,
     /// Height of the centre of mass above the plane through the origin, m.
     pub height: f64,
+    /// What the two numbers of z make of each director in space, and what is always there; the same of r.
+    turned: [[Vector3<f64>; 3]; 3],
+    moved: [Vector3<f64>; 3],
 }
 
 impl Default for PlanarPose {
     fn default() -> Self {
-        Self { frame: Matrix3::identity(), directors: Matrix3::identity(), height: 0.0 }
+        Self::new(Matrix3::identity(), Matrix3::identity(), 0.0)
     }
 }
 
 impl PlanarPose {
+    /// Of a body with these directors where z = (1, 0), and the height of its centre of mass, in a plane with two directions and a normal
+    /// as columns.
+    pub fn new(frame: Matrix3<f64>, directors: Matrix3<f64>, height: f64) -> Self {
+        let turned = [0, 1, 2].map(|k| {
+            let d = directors.column(k);
+            [Vector3::new(d[0], d[1], 0.0), Vector3::new(-d[1], d[0], 0.0), Vector3::new(0.0, 0.0, d[2])]
+                .map(|part| frame * part)
+        });
+        let moved = [Vector3::x(), Vector3::y(), height * Vector3::z()].map(|part| frame * part);
+        Self { frame, directors, height, turned, moved }
+    }
+
     /// (r, z) of a position or velocity in space.
     pub fn lower(&self, lift: &NaturalCoordinates) -> ([f64; 2], [f64; 2]) {
         let r = self.frame.tr_mul(&lift.r);
@@ -163,12 +178,10 @@ impl PlanarPose {
 
     /// Position, or velocity or acceleration if `rate`, in space of (r, z).
     pub fn raise(&self, r: [f64; 2], z: [f64; 2], rate: bool) -> NaturalCoordinates {
-        let constant = |x: f64| if rate { 0.0 } else { x };
-        let e = [0, 1, 2].map(|k| {
-            let d = self.directors.column(k);
-            let (x, y) = (z[0] * d[0] - z[1] * d[1], z[0] * d[1] + z[1] * d[0]);
-            self.frame * Vector3::new(x, y, constant(d[2]))
-        });
-        NaturalCoordinates { r: self.frame * Vector3::new(r[0], r[1], constant(self.height)), e }
+        let sum = |[first, second, always]: &[Vector3<f64>; 3], x: [f64; 2]| {
+            first * x[0] + second * x[1] + if rate { Vector3::zeros() } else { *always }
+        };
+        let [u, v, w] = &self.turned;
+        NaturalCoordinates { r: sum(&self.moved, r), e: [sum(u, z), sum(v, z), sum(w, z)] }
     }
 }

@@ -180,6 +180,14 @@ impl Layout {
 
     /// Writes the body's own coordinates of a vector of natural coordinates into q.
     pub fn store(&self, natural: &NaturalCoordinates, q: &mut [f64]) {
+        let first = self.first;
+        let own = [3, 6, 9].map(|column| Director::Own(first + column));
+        if let (true, Some(q)) = (self.directors == own, q[first..].first_chunk_mut::<12>()) {
+            let [u, v, w] = &natural.e;
+            let vectors = q.as_chunks_mut::<3>().0.iter_mut().zip([&natural.r, u, v, w]);
+            vectors.for_each(|(q, vector)| *q = (*vector).into());
+            return;
+        }
         self.own_numbers(natural, |column, value| q[column] = value);
     }
 

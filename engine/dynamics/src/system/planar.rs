@@ -138,7 +138,7 @@ impl Plane {
             let place = body.position(q);
             let directors = turned * Matrix3::from_columns(&place.e);
             let height = (turned * place.r)[2];
-            body.planar_pose = Some(PlanarPose { frame: self.frame, directors, height });
+            body.planar_pose = Some(PlanarPose::new(self.frame, directors, height));
         }
         turn_features(&mut flat, &turned);
         turn_loads(&mut flat, &turned);
