@@ -30,6 +30,8 @@ mod transport;
 
 mod step;
 
+mod instants;
+
 mod probe;
 
 mod island;
@@ -107,6 +109,8 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     pub counters: Counters,
     /// A copy that evaluates S at other times, and leaves the factor as it is.
     probe: Option<Box<Self>>,
+    /// S at several times at once, where that is possible.
+    instants: Option<Box<instants::Instants<L, B>>>,
     /// The error that is carried along.
     transport: Option<Box<transport::Transport<L, B>>>,
     /// What Φ of each solver row is measured in, where it is measured, in the same order.
@@ -183,6 +187,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             regularizes_inertia: system.regularizes_inertia(),
             counters: Counters::default(),
             probe: None,
+            instants: None,
             transport: None,
             row_sizes: Vec::new(),
         }
@@ -224,10 +229,13 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Values of features, inertia and mobilities at the point of expansion.
     #[inline(always)]
     fn set_up(&mut self) {
-        self.place_values();
-        self.rows.turn_common_vectors(&self.values);
-        self.rows.store_factors(0, &self.values);
-        self.angles.place(&self.values);
+        // Common points make the same of S whatever their values are.
+        if self.needs_values() || self.points.has_others() {
+            self.place_values();
+            self.rows.turn_common_vectors(&self.values);
+            self.rows.store_factors(0, &self.values);
+            self.angles.place(&self.values);
+        }
         for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
             bundle.linearize(&state[0]);
             for slot in bundle.slots() {

@@ -32,6 +32,11 @@ pub trait Track {
     /// Pivot products of the joints at the state.
     fn pivot_products(&mut self) -> &[f64];
 
+    /// Those at four times of the last step, joint by joint, where they can be found at once; the state stays as it is.
+    fn pivot_products_at(&mut self, _times: [f64; 4]) -> Option<&[[f64; 4]]> {
+        None
+    }
+
     /// Which joints take part where rows of `joints`, with their weights, nearly depend on others, at the last pivot products: raises
     /// the share of each to at most one.
     fn raise_shares(&mut self, joints: &[(usize, f64)], shares: &mut [f64]);

@@ -8,6 +8,7 @@
 
 mod found;
 mod history;
+mod overview;
 mod passage;
 mod probe;
 mod sample;
@@ -19,6 +20,7 @@ use crate::integrate::{Integrator, IslandStep, Track};
 use crate::scene::ConstraintMethod;
 use found::Found;
 use history::IslandHistory;
+use overview::Overview;
 use passage::{Examiner, root};
 use probe::{Path, Probe};
 use sample::Sample;
@@ -58,6 +60,7 @@ pub struct SingularityMonitor {
     examiner: Examiner,
     /// Pivot products at times of the last step: its start, its end, and those of the probes.
     samples: Vec<Sample>,
+    overview: Overview,
     examined: Vec<f64>,
     /// Whether rows that hardly hold are kept on the way past a place that was not resolved, and steps taken again there.
     resolving: bool,
@@ -87,6 +90,7 @@ impl SingularityMonitor {
             found: Found::new(constraints),
             examiner: Examiner::default(),
             samples: (0..SAMPLES).map(|_| Sample::new(constraints)).collect(),
+            overview: Overview::new(constraints),
             examined: Vec::with_capacity(USUAL_DIPS),
             resolving: false,
             retreats: 0,
@@ -163,7 +167,11 @@ impl SingularityMonitor {
             history.constraints = constraints.map_or_else(|| all.collect(), <[usize]>::to_vec);
         }
         let known = pivot_products.is_some_and(|products| !products.is_empty());
-        self.samples.iter_mut().for_each(|sample| sample.resize(history.constraints.len()));
+        let joints = history.constraints.len();
+        if self.samples[1].products.len() != joints {
+            self.samples.iter_mut().for_each(|sample| sample.resize(joints));
+            self.overview.resize(joints);
+        }
         if let Some(products) = pivot_products.filter(|_| known) {
             self.samples[1].products.copy_from_slice(products);
         }
@@ -194,7 +202,7 @@ impl SingularityMonitor {
         pace: f64,
         known: bool,
     ) -> Result<(), Unresolved> {
-        let Self { islands, found, examiner, samples, examined, .. } = self;
+        let Self { islands, found, examiner, samples, overview, examined, .. } = self;
         let StepData { island, start, end, .. } = step;
         let history = &mut islands[island];
         let mut sample = |t: f64, out: &mut Vec<f64>| {
@@ -216,7 +224,9 @@ impl SingularityMonitor {
         samples[..2].iter_mut().for_each(|sample| sample.measure(&history.largest, step.floor()));
         examined.clear();
         let mut search = Search { step, track, found, history, examiner, samples, examined };
-        search.within((start, 0), (end, 1), 2)?;
+        if !search.shows_no_dip(overview) {
+            search.within((start, 0), (end, 1), 2)?;
+        }
         let history = &mut islands[island];
         history.note_change(&samples[0].products, &samples[1].products, (end - start) * step.pace);
         history.pivot_products.clone_from(&samples[1].products);

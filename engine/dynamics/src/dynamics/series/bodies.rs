@@ -16,6 +16,8 @@ mod planar;
 
 mod points;
 
+mod measures;
+
 pub use bundle::Bundle;
 pub use kernels::Bodies;
 pub use planar::Planar;

@@ -16,4 +16,4 @@ pub use angles::{AngleSeries, Angles};
 pub use points::{JointPoints, NOWHERE};
 pub use prescribed::Prescribed;
 pub use rows::Rows;
-pub use schur::Schur;
+pub use schur::{CommonPointProduct, Schur};

@@ -82,9 +82,10 @@ impl IslandSeries {
         with!(&mut self.0, s => s.leave_out(rows));
     }
 
-    /// Makes room for evaluations inside steps; `row_sizes` tells what Φ of each solver row is measured in.
-    pub fn enable_probes(&mut self, row_sizes: &[f64]) {
-        with!(&mut self.0, s => s.enable_probes(row_sizes));
+    /// Makes room for evaluations inside steps; `row_sizes` tells what Φ of each solver row is measured in, `system` is that of
+    /// the series.
+    pub fn enable_probes(&mut self, system: &System, row_sizes: &[f64]) {
+        with!(&mut self.0, s => s.enable_probes(system, row_sizes));
     }
 
     /// Whether rows that hardly hold are kept: see [`crate::dynamics::elimination::Elimination::set_resolving`].
@@ -174,14 +175,24 @@ impl IslandSeries {
         with!(&mut self.0, s => s.probe().map_or(&[], |probe| probe.pivot_products_here()))
     }
 
+    /// Pivot products of the joints at four times τ after the start of the last step, whose series have the given order. `None` if
+    /// they can only be found one after another.
+    pub fn pivot_products_at(&mut self, tau: &[f64; 4], order: usize) -> Option<&[[f64; 4]]> {
+        match &mut self.0 {
+            Bundled::Wide(s) => s.pivot_products_at(tau, order),
+            Bundled::WidePlanar(s) => s.pivot_products_at(tau, order),
+            Bundled::Narrow(_) | Bundled::NarrowPlanar(_) => None,
+        }
+    }
+
     /// Which joints take part where rows of `joints` nearly depend on others, at the copy's last pivot products.
     pub fn raise_shares(&mut self, joints: &[(usize, f64)], shares: &mut [f64]) {
         with!(&mut self.0, s => s.probe().map_or((), |probe| probe.raise_shares(joints, shares)));
     }
 
     /// How fast rows turn at the state, 1/s.
-    pub fn pace(&self, system: &System) -> f64 {
-        with!(&self.0, s => s.pace(system))
+    pub fn pace(&self, length: f64) -> f64 {
+        with!(&self.0, s => s.pace(length))
     }
 
     /// Work done so far.

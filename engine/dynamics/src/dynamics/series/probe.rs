@@ -2,12 +2,12 @@
 //! one — THEORY section 8. A copy of the series has the other state; the factor at the end of the step stays as it is.
 
 use super::expand::Value;
+use super::instants::Instants;
 use super::{Bodies, Series};
 use crate::newton::{Movable, Projectable, project_positions, project_velocities, rules};
-use crate::state;
 use crate::system::System;
 use pulp::{Arch, Simd, WithSimd};
-use triad_linalg::larger;
+use triad_linalg::{larger, raise};
 
 /// A factorization of which only the pivots are wanted, to be compiled for each set of vector instructions.
 struct PivotProducts<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>);
@@ -22,8 +22,8 @@ impl<const L: usize, B: Bodies<L>> WithSimd for PivotProducts<'_, L, B> {
 }
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
-    /// Makes a copy for other states; `row_sizes` tells what Φ of each solver row is measured in.
-    pub fn enable_probes(&mut self, row_sizes: &[f64]) {
+    /// Makes a copy for other states; `row_sizes` tells what Φ of each solver row is measured in, `system` is that of the series.
+    pub fn enable_probes(&mut self, system: &System, row_sizes: &[f64]) {
         self.schur.factor.keep_pivot_products();
         let mut probe = self.clone();
         probe.row_sizes = vec![1.0; self.schur.factor.numbers()];
@@ -32,6 +32,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
         (probe.resolving, probe.corrects_only) = (true, true);
         self.probe = Some(Box::new(probe));
+        self.instants = if L > 1 { Instants::new(self, system).map(Box::new) } else { None };
     }
 
     /// Whether rows that hardly hold are kept: see [`crate::dynamics::elimination::Elimination::set_resolving`].
@@ -112,8 +113,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let rows = self.rows.extra.iter().zip(&self.row_sizes);
         let mut most = rows.fold(0.0f64, |most, (extra, size)| larger(most, extra.abs() / size));
         for (bundle, [q, _]) in self.bundles.iter().zip(&self.state) {
-            for lane in 0..bundle.bodies().len() {
-                most = most.max(bundle.write(lane, q, false).stretch());
+            let stretch = B::stretch(q);
+            for stretch in &stretch[..bundle.bodies().len()] {
+                most = if stretch.is_nan() { *stretch } else { larger(most, *stretch) };
             }
         }
         most
@@ -153,14 +155,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.schur.factor.factor(0.0, 0.0);
     }
 
-    /// How fast rows turn at the state, 1/s: see [`state::pace`].
-    pub fn pace(&self, system: &System) -> f64 {
-        let mut fastest: f64 = 0.0;
-        for (bundle, [_, rate]) in self.bundles.iter().zip(&self.state) {
-            for lane in 0..bundle.bodies().len() {
-                fastest = fastest.max(state::pace(&bundle.write(lane, rate, true), system.length));
-            }
+    /// How fast rows turn at the state, 1/s: see [`crate::state::pace`].
+    pub fn pace(&self, length: f64) -> f64 {
+        let mut fastest = [0.0; L];
+        for [_, rate] in &self.state {
+            raise(&mut fastest, &B::pace(rate, length));
         }
-        fastest
+        fastest.into_iter().fold(0.0, larger)
     }
 }

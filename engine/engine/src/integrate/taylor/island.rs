@@ -96,7 +96,7 @@ impl IslandStepper {
         }
         let redundant = !dependent.is_empty();
         if loops {
-            series.enable_probes(&violation::row_sizes(flat.as_ref().unwrap_or(system)));
+            series.enable_probes(solved, &violation::row_sizes(solved));
         }
         if whole.model.settings.error_estimate {
             series.carry_errors(solved);
@@ -162,8 +162,8 @@ impl IslandStepper {
 
     /// Its last step, if it may hide a singular configuration; `island` is its own place among all.
     pub fn last_step(&self, whole: &System, island: usize) -> Option<IslandStep<'_>> {
-        let system = self.own.as_deref().unwrap_or(whole);
-        let (pivot_products, pace) = (Some(self.series.pivot_products()), self.series.pace(system));
+        let length = self.own.as_deref().unwrap_or(whole).length;
+        let (pivot_products, pace) = (Some(self.series.pivot_products()), self.series.pace(length));
         let (start, end, constraints) = (self.t_old, self.t, self.constraints.as_deref());
         self.loops.then_some(IslandStep { island, start, end, pivot_products, constraints, pace })
     }
@@ -303,6 +303,10 @@ impl Track for IslandStepper {
 
     fn pivot_products(&mut self) -> &[f64] {
         self.series.probe_pivot_products()
+    }
+
+    fn pivot_products_at(&mut self, times: [f64; 4]) -> Option<&[[f64; 4]]> {
+        self.series.pivot_products_at(&times.map(|t| t - self.t_old), self.order_old)
     }
 
     fn raise_shares(&mut self, joints: &[(usize, f64)], shares: &mut [f64]) {

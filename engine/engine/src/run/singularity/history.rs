@@ -1,5 +1,10 @@
 //! What is known of the pivot products of an island from the steps so far.
 
+/// Bound of the rate at which the distance from a singular configuration, as an angle, changes, relative to the pace of the
+/// fastest body.
+const RATE_BOUND: f64 = 5.0;
+/// The same relative to the fastest change of that joint so far, which masses and lengths may make faster.
+const OBSERVED_RATE_BOUND: f64 = 2.0;
 /// Least turn of the rows in a step from which the rate of change of pivot products is taken, rad.
 const MIN_TURN: f64 = 0.005;
 
@@ -10,8 +15,8 @@ pub(super) struct IslandHistory {
     pub largest: Vec<f64>,
     /// Pivot products at the end of the last step.
     pub pivot_products: Vec<f64>,
-    /// Fastest change of the roots of pivot products, relative to the largest, for each radian that rows turn.
-    pub fastest_change: Vec<f64>,
+    /// Bounds of how fast the distances of joints from a singular configuration change, as angles, for each radian that rows turn.
+    pub rate_bounds: Vec<f64>,
     /// How fast rows turned at the end of the last step, 1/s.
     pub pace: f64,
     /// Places of the island's joints and drivers in the mechanism.
@@ -28,7 +33,7 @@ impl IslandHistory {
     pub(super) fn begin(&mut self, pivot_products: &[f64], pace: f64) {
         (self.largest, self.pace) = (pivot_products.to_vec(), pace);
         self.pivot_products = pivot_products.to_vec();
-        self.fastest_change = vec![0.0; pivot_products.len()];
+        self.rate_bounds = vec![RATE_BOUND; pivot_products.len()];
     }
 
     pub(super) fn note_largest(&mut self, pivot_products: &[f64]) {
@@ -39,7 +44,7 @@ impl IslandHistory {
 
     /// Notes how fast the root of a joint's pivot product changes for each radian that rows turn.
     pub(super) fn note_rate(&mut self, joint: usize, rate: f64) {
-        self.fastest_change[joint] = self.fastest_change[joint].max(rate);
+        self.rate_bounds[joint] = self.rate_bounds[joint].max(OBSERVED_RATE_BOUND * rate);
     }
 
     /// Notes a change of pivot products while rows turned by an angle.
@@ -47,10 +52,10 @@ impl IslandHistory {
         if turned < MIN_TURN {
             return;
         }
-        let changes = self.fastest_change.iter_mut().zip(&self.largest);
-        for (((fastest, largest), from), to) in changes.zip(from).zip(to) {
+        let bounds = self.rate_bounds.iter_mut().zip(&self.largest);
+        for (((bound, largest), from), to) in bounds.zip(from).zip(to) {
             let root = |product: f64| (product / largest).max(0.0).sqrt();
-            *fastest = fastest.max((root(*to) - root(*from)).abs() / turned);
+            *bound = bound.max(OBSERVED_RATE_BOUND * ((root(*to) - root(*from)).abs() / turned));
         }
     }
 }

@@ -38,7 +38,8 @@ impl Sample {
         let Self { products, angles } = self;
         for ((angle, product), largest) in angles.iter_mut().zip(&*products).zip(largest) {
             let root = (product / largest).clamp(0.0, 1.0).sqrt();
-            *angle = if *largest > REDUNDANT { angle_above(root - floor) } else { f64::INFINITY };
+            // Found for those that are redundant as well: several at once, without a branch.
+            *angle = angle_above(root - floor) + if *largest > REDUNDANT { 0.0 } else { f64::INFINITY };
         }
     }
 }

@@ -11,11 +11,6 @@ use std::f64::consts::PI;
 const MAX_DEPTH: usize = 14;
 /// Places for pivot products: both ends of a step, one for each division, one for the search for a dip, and one to spare.
 pub(super) const SAMPLES: usize = MAX_DEPTH + 4;
-/// Bound of the rate at which the distance from a singular configuration, as an angle, changes, relative to the pace of the
-/// fastest body.
-const RATE_BOUND: f64 = 5.0;
-/// The same relative to the fastest change of that joint so far, which masses and lengths may make faster.
-const OBSERVED_RATE_BOUND: f64 = 2.0;
 /// Distance of an end from a singular configuration, as an angle, rad, below which these bounds are widened, and by how much:
 /// many change fastest just there.
 const NEAR: f64 = 0.1;
@@ -120,9 +115,24 @@ impl Search<'_> {
         self.examined.iter().any(|known| (known - time).abs() * self.step.pace <= SAME)
     }
 
+    /// Whether some joint may become dependent between two samples.
+    pub(super) fn is_suspicious(&self, a: (f64, usize), b: (f64, usize)) -> bool {
+        let turned = (b.0 - a.0) * self.step.pace;
+        let [from, to] = [a, b].map(|end| &self.samples[end.1].angles);
+        let angles = from.iter().zip(to).zip(&self.history.rate_bounds);
+        // All of them at once, as in most cases it is none.
+        let may = |((low, high), rate): ((&f64, &f64), &f64)| {
+            u64::from(low + high <= widest(rate * turned, *low, *high))
+        };
+        angles.fold(0, |any, joint| any | may(joint)) > 0
+    }
+
     /// The joint that is most likely to become dependent between two samples; and its distances from that at both: zero there,
     /// π/2 at its largest pivot product, and π where it has just come from a zero that is known.
     fn suspect(&self, a: (f64, usize), b: (f64, usize)) -> Option<(usize, f64, f64)> {
+        if !self.is_suspicious(a, b) {
+            return None;
+        }
         let floor = self.step.floor();
         let turned = (b.0 - a.0) * self.step.pace;
         let known = [a, b].map(|end| self.is_examined(end.0));
@@ -130,11 +140,10 @@ impl Search<'_> {
         let mut found = None;
         let mut least = 1.0;
         let angles = from.angles.iter().zip(&to.angles);
-        for (joint, ((low, high), fastest)) in angles.zip(&self.history.fastest_change).enumerate() {
-            let turn = RATE_BOUND.max(OBSERVED_RATE_BOUND * fastest) * turned;
+        for (joint, ((low, high), rate)) in angles.zip(&self.history.rate_bounds).enumerate() {
+            let turn = rate * turned;
             // Most joints are far from it, and farther than the one found so far: exact arcsines cost more than all else here.
-            let far = low.min(*high) >= FAR;
-            if low + high > least * if far { turn } else { STEEP * turn } {
+            if low + high > least * widest(turn, *low, *high) {
                 continue;
             }
             let part = |end: usize, sample: &Sample| match sample.root(joint, &self.history.largest) {
@@ -314,6 +323,12 @@ impl Search<'_> {
         self.history.largest[joint] > REDUNDANT
             && root(products, &self.history.largest, joint) < DEEP.min(10.0 * dip.root.max(EXACT.0))
     }
+}
+
+/// How far the distances of a joint from a singular configuration, between lower bounds of them at both ends, may come nearer to it and
+/// back while rows turn by an angle times its rate.
+fn widest(turn: f64, low: f64, high: f64) -> f64 {
+    turn * if low < FAR || high < FAR { STEEP } else { 1.0 }
 }
 
 /// A time near the best of three points, if that is an end of them, and the vertex of their parabola is too near it to be told

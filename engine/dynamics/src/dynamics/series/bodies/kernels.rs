@@ -21,11 +21,19 @@ pub trait Points<const L: usize> {
     fn pull_off<S: Simd>(simd: S, slot: &FeatureSlot<L>, f: &LaneVector<L>, sum: &mut Self::Natural);
 }
 
+/// What tells of L bodies whether they are rigid, and how fast they move.
+pub trait Measures<const L: usize>: Points<L> {
+    /// How fast the bodies turn the rows of their joints: see [`crate::state::pace`].
+    fn pace(rate: &Self::Natural, length: f64) -> Lane<L>;
+    /// Largest violation of the rigid-body rows, or not a number.
+    fn stretch(x: &Self::Natural) -> Lane<L>;
+}
+
 /// A bundle of L bodies with the kernels that concern each body alone.
 ///
 /// Features, rows and loads are the same for all kinds of bundles: vectors of three components. In a plane these are
 /// components along two directions in the plane and along its normal; the last never changes.
-pub trait Bodies<const L: usize>: Points<L> + Clone + Debug + Sized {
+pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     /// Right-hand sides of the rigid-body rows.
     type Rigid: Copy;
     /// Moments about the centres of mass.

@@ -42,6 +42,17 @@ struct Target {
     constant: f64,
 }
 
+/// What two common points of a body in a lane add to S.
+#[derive(Clone, Copy, Debug)]
+pub struct CommonPointProduct {
+    /// The points' features, and the lane of their body.
+    pub slots: [usize; 2],
+    pub lane: usize,
+    pub sign: f64,
+    /// Where the block begins.
+    pub offset: usize,
+}
+
 /// S and its factor.
 #[derive(Clone, Debug)]
 pub struct Schur {
@@ -140,6 +151,26 @@ impl Schur {
         };
         schur.write_constants(twist, if twist == 3 { 2 } else { 3 });
         schur
+    }
+
+    /// All products that S is the sum of, if they are those of common points.
+    pub fn products_of_common_points(&self) -> Option<Vec<CommonPointProduct>> {
+        let product = |slots: [usize; 2], &Target { lane, sign, offset, .. }: &Target| CommonPointProduct {
+            slots,
+            lane,
+            sign,
+            offset,
+        };
+        let of_pair = |pair: &Pair| {
+            let slots = pair.slots;
+            self.targets[pair.targets.clone()].iter().map(move |target| product(slots, target))
+        };
+        self.contributions.is_empty().then(|| self.pairs.iter().flat_map(of_pair).collect())
+    }
+
+    /// The part of S that never changes.
+    pub fn base(&self) -> &[f64] {
+        &self.base
     }
 
     /// Builds S from C⁻¹ s̃ of all features.
