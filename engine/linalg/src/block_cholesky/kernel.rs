@@ -187,6 +187,34 @@ pub fn subtract<const N: usize, const W: usize>(scaled: &[[f64; W]; N], y: &[f64
     }
 }
 
+/// target −= Uᵀ y for a block that is M wide.
+#[inline(always)]
+pub fn subtract_rows<const N: usize, const M: usize, const V: usize>(
+    scaled: &[[f64; V]; N],
+    y: &[f64],
+    target: &mut [f64; V],
+) {
+    for (row, y) in scaled.iter().zip(y) {
+        for c in 0..M {
+            target[c] = fma(-y, row[c], target[c]);
+        }
+    }
+}
+
+/// x −= U y for a block that is M wide.
+#[inline(always)]
+pub fn subtract_products<const N: usize, const M: usize, const V: usize>(
+    scaled: &[[f64; V]; N],
+    y: &[f64; M],
+    x: &mut [f64],
+) {
+    for (row, x) in scaled.iter().zip(x) {
+        for c in 0..M {
+            *x = fma(-row[c], y[c], *x);
+        }
+    }
+}
+
 /// M x for a symmetric matrix.
 #[inline(always)]
 pub fn multiply<const N: usize, const W: usize>(matrix: &[[f64; W]; N], x: &[f64; W]) -> [f64; W] {

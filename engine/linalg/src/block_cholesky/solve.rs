@@ -86,13 +86,16 @@ impl BlockCholesky {
     #[inline(always)]
     fn forward<const N: usize, const W: usize>(&self, pivots: &Range<usize>, beside: usize, x: &mut [f64]) {
         let (false, Some(first)) = (beside == 0, self.pivots[pivots.clone()].first()) else { return };
-        let blocks = self.factors[first.diagonal..].chunks_exact((1 + beside) * N * W);
-        let others = self.beside[first.beside.start..].chunks_exact(beside);
+        // No chunks: their number would be found by divisions.
+        let (mut rest, mut others) = (&self.factors[first.diagonal..], &self.beside[first.beside.start..]);
         let mut at = first.place;
-        for (blocks, others) in blocks.zip(others).take(pivots.len()) {
+        for _ in pivots.clone() {
+            let (blocks, later) = rest.split_at((1 + beside) * N * W);
+            let (own, behind) = others.split_at(beside);
+            (rest, others) = (later, behind);
             let (_, blocks) = blocks.split_at(N * W);
             let Some(&y) = x[at..].first_chunk::<W>() else { return };
-            for (block, other) in blocks.as_chunks::<W>().0.as_chunks::<N>().0.iter().zip(others) {
+            for (block, other) in blocks.as_chunks::<W>().0.as_chunks::<N>().0.iter().zip(own) {
                 if let Some(target) = x[other.place..].first_chunk_mut::<W>() {
                     kernel::subtract(block, &y, target);
                 }
@@ -105,20 +108,27 @@ impl BlockCholesky {
     #[inline(always)]
     fn backward<const N: usize, const W: usize>(&self, pivots: &Range<usize>, beside: usize, x: &mut [f64]) {
         let [first, ..] = &self.pivots[pivots.clone()] else { return };
-        let at = first.diagonal..first.diagonal + pivots.len() * (1 + beside) * N * W;
-        let blocks = self.factors[at.clone()].chunks_exact((1 + beside) * N * W);
-        let turned = self.values[at].chunks_exact((1 + beside) * N * W);
+        if beside == 0 {
+            self.alone::<N, W>(first, pivots.len(), x);
+            return;
+        }
+        let numbers = (1 + beside) * N * W;
+        let all = first.diagonal..first.diagonal + pivots.len() * numbers;
+        let (mut blocks, mut turned) = (&self.factors[all.clone()], &self.values[all]);
         let mut others = &self.beside[first.beside.start..first.beside.start + pivots.len() * beside];
         let mut at = first.place + pivots.len() * W;
-        for (blocks, turned) in blocks.zip(turned).rev() {
+        for _ in pivots.clone() {
             at -= W;
             let (rest, own) = others.split_at(others.len() - beside);
             others = rest;
-            let Some(inverse) = blocks.as_chunks::<W>().0.first_chunk::<N>() else { return };
+            let (before, own_blocks) = blocks.split_at(blocks.len() - numbers);
+            let (before_turned, own_turned) = turned.split_at(turned.len() - numbers);
+            (blocks, turned) = (before, before_turned);
+            let Some(inverse) = own_blocks.as_chunks::<W>().0.first_chunk::<N>() else { return };
             let Some(y) = x[at..].first_chunk::<W>() else { return };
             let mut solution = kernel::multiply(inverse, y);
-            let (_, turned) = turned.split_at(N * W);
-            for (block, other) in turned.as_chunks::<W>().0.as_chunks::<N>().0.iter().zip(own) {
+            let (_, own_turned) = own_turned.split_at(N * W);
+            for (block, other) in own_turned.as_chunks::<W>().0.as_chunks::<N>().0.iter().zip(own) {
                 if let Some(source) = x[other.place..].first_chunk::<W>() {
                     kernel::subtract(block, source, &mut solution);
                 }
@@ -126,6 +136,15 @@ impl BlockCholesky {
             if let Some(out) = x[at..].first_chunk_mut::<W>() {
                 *out = solution;
             }
+        }
+    }
+
+    /// Solutions of so many pivots with nothing beside them.
+    #[inline(always)]
+    fn alone<const N: usize, const W: usize>(&self, first: &Pivot, count: usize, x: &mut [f64]) {
+        let blocks = self.factors[first.diagonal..].as_chunks::<W>().0.as_chunks::<N>().0;
+        for (inverse, x) in blocks.iter().zip(x[first.place..].as_chunks_mut::<W>().0).take(count) {
+            *x = kernel::multiply(inverse, x);
         }
     }
 
@@ -152,7 +171,14 @@ impl BlockCholesky {
             {
                 kernel::subtract(block, &y, target);
             } else {
-                wide::forward(&y[..N], block, other.columns, target);
+                by_size!(
+                    other.columns, M, V => if let (Some(block), Some(target)) =
+                        (rows::<N, V>(block), target.first_chunk_mut::<V>())
+                    {
+                        kernel::subtract_rows::<N, M, V>(block, &y, target);
+                    },
+                    wide::forward(&y[..N], block, other.columns, target)
+                );
             }
         }
     }
@@ -177,7 +203,15 @@ impl BlockCholesky {
             {
                 kernel::subtract(block, source, &mut solution);
             } else {
-                wide::backward(&self.factors[other.offset..], &source[..other.columns], &mut solution[..N]);
+                let block = &self.factors[other.offset..];
+                by_size!(
+                    other.columns, M, V => if let (Some(block), Some(source)) =
+                        (rows::<N, V>(block), source.first_chunk::<M>())
+                    {
+                        kernel::subtract_products(block, source, &mut solution);
+                    },
+                    wide::backward(block, &source[..other.columns], &mut solution[..N])
+                );
             }
         }
         if let Some(out) = x[pivot.place..].first_chunk_mut::<W>() {
