@@ -88,7 +88,7 @@ impl IslandStepper {
         series.keep_constants(skip.constants);
         series.place(system, t, y);
         let mut dependent = Vec::new();
-        if flat.is_some() || redundant {
+        if (flat.is_some() || redundant) && rows > 0 {
             let mut measured = series_of(&solved.in_lengths(), 1);
             measured.place(system, t, y);
             dependent = measured.find_dependent(system.length, redundant);
