@@ -42,7 +42,7 @@ pub use step::{SeriesStep, StepPlan};
 use crate::dynamics::elimination::{Counters, LOST, NEAR_SINGULAR, REGULARIZATION};
 use crate::model::BodyRef;
 use crate::system::System;
-use bodies::{Bodies, Bundle, FeatureSlot, LanePlace, Planar};
+use bodies::{Bodies, Bundle, FeatureSlot, LanePlace, Planar, Single};
 use constraints::{Angles, JointPoints, NOWHERE, Prescribed, Rows, Schur};
 use lanes::LaneVector;
 use layout::bundles;
@@ -125,6 +125,13 @@ impl<const L: usize> Series<L> {
     }
 }
 
+impl Series<1, Single> {
+    /// The same for one body.
+    pub fn single(system: &System, order: usize, turns: &[f64]) -> Self {
+        Self::of(system, order, turns)
+    }
+}
+
 impl<const L: usize> Series<L, Planar<L>> {
     /// The same for motion in a plane, of a system that has been reduced to it.
     pub fn planar(system: &System, order: usize, turns: &[f64]) -> Self {
@@ -149,7 +156,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let all = moving + ground.len();
         slots.shrink_to_fit();
         let schur = Schur::new(system, &place, L, B::TWIST);
-        let points = JointPoints::new(system, &bundles, &slots, &place, &schur.factor);
+        let points = JointPoints::new(system, &bundles, &slots, &place, &schur.factor, stride);
         let rows = Rows::new(system, &place, nowhere, &schur.factor, stride);
         let angles = Angles::new(system, &place, &schur.factor, stride, turns);
         let prescribed = Prescribed::new(system, &place, &schur.factor, L, stride);
@@ -229,6 +236,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Values of features, inertia and mobilities at the point of expansion.
     #[inline(always)]
     fn set_up(&mut self) {
+        if self.is_bare() {
+            for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
+                bundle.linearize(&state[0]);
+            }
+            return;
+        }
         // Common points make the same of S whatever their values are.
         if self.needs_values() || self.points.has_others() {
             self.place_values();
@@ -252,6 +265,13 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 self.values[slot] = B::value(&self.slots[slot], &x);
             }
         }
+    }
+
+    /// Takes over the factors of rows at the state, from the features' values in place: before anything is solved for.
+    #[inline(always)]
+    fn take_factors(&mut self) {
+        self.rows.store_factors(0, &self.values);
+        self.points.take_factors(self.rows.numbers());
     }
 
     /// Values of all features at the state.

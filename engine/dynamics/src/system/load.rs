@@ -89,6 +89,18 @@ impl SystemLoad {
         }
     }
 
+    /// The features that its force depends on or acts on.
+    pub fn features(&self) -> Vec<FeatureId> {
+        match self {
+            Self::Force { .. } | Self::Moment { .. } => Vec::new(),
+            Self::Spring { from, to, .. } => vec![*from, *to],
+            Self::Torsion { axis, .. } => vec![*axis],
+            Self::Slider { axis, between, .. } => {
+                [*axis, between.plus].into_iter().chain(between.minus).collect()
+            }
+        }
+    }
+
     /// Renames features.
     pub fn rename(&mut self, place: &[FeatureId]) {
         match self {

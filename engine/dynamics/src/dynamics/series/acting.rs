@@ -28,8 +28,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let coefficient = |b: usize, i: usize| &q[b * stride + i];
         self.loads.apply::<L, B>(n, coefficient, &mut self.forces, &mut self.bundles);
         self.prescribed.pull_back(n, &self.forces, &mut self.bundles);
-        for bundle in &mut self.bundles {
-            for slot in bundle.slots() {
+        for (b, bundle) in self.bundles.iter_mut().enumerate() {
+            for &slot in self.points.convolved(b) {
                 B::pull_back(&self.slots[slot], &self.forces[slot], bundle.force_mut());
             }
         }
@@ -43,6 +43,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     /// Finds the power of drivers and of loads without potential, from the series up to order `order`.
+    #[inline(always)]
     pub(super) fn find_power(&mut self, order: usize) {
         let (q, stride, lambda, rows) = (&self.q, self.stride, &self.lambda, self.correction.len());
         let coefficient = |b: usize, i: usize| &q[b * stride + i];

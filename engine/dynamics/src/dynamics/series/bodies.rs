@@ -12,6 +12,10 @@ mod bundle;
 
 mod pair;
 
+mod components;
+
+mod single;
+
 mod planar;
 
 mod points;
@@ -21,4 +25,5 @@ mod measures;
 pub use bundle::Bundle;
 pub use kernels::Bodies;
 pub use planar::Planar;
+pub use single::Single;
 pub use slot::{FeatureSlot, LanePlace};

@@ -1,5 +1,7 @@
 //! The rows of joints and drivers on series, and the matrix S that their multipliers follow from.
 
+mod vectors;
+
 mod points;
 
 mod rows;

@@ -38,6 +38,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         if self.needs_values() {
             self.place_values();
             self.store_values(0);
+            self.points.take_factors(self.rows.numbers());
             self.values_of(|state, _| state[1]);
             self.set_ground(false);
             self.prepare_prescribed(1, 1.0);
@@ -54,41 +55,47 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     pub(super) fn solve_order<S: Simd>(&mut self, simd: S, n: usize) {
         let kappa = ((n + 1) * (n + 2)) as f64;
         let over_kappa = 1.0 / kappa;
+        let needs_values = self.needs_values();
         for bundle in &mut self.bundles {
             bundle.clear_force();
             if n == 0 {
                 bundle.add_weight();
             }
         }
-        if self.needs_values() {
+        if needs_values {
             self.demand(n, kappa);
             self.set_known_forces(n);
         }
-        for (b, bundle) in self.bundles.iter_mut().enumerate() {
-            let range = b * self.stride..(b + 1) * self.stride;
-            let (q, p) = (&self.q[range.clone()], &self.p[range]);
-            bundle.begin(&q[0], &B::gram(q, n + 2, kappa), B::moment(q, p, n));
+        // No chunks: their number would be found by divisions.
+        let (mut rest, mut rest_of_p) = (&self.q[..], &self.p[..]);
+        for bundle in &mut self.bundles {
+            let ((q, others), (p, others_of_p)) =
+                (rest.split_at(self.stride), rest_of_p.split_at(self.stride));
+            (rest, rest_of_p) = (others, others_of_p);
+            bundle.begin(simd, &q[0], &B::gram(simd, q, n + 2, kappa), B::moment(simd, q, p, n));
         }
         self.prepare_prescribed(n + 2, kappa);
         self.solve(simd, n);
-        let mut largest = [0.0; L];
+        let mut largest = [0.0; 4];
         for (b, bundle) in self.bundles.iter().enumerate() {
             let at = b * self.stride + n;
-            let next = B::lanes_mut(&mut self.q[at + 2]);
-            for (q, a) in next.iter_mut().zip(B::lanes(bundle.solution())) {
-                *q = times(a, &[over_kappa; L]);
+            // Four at a time, whatever they belong to: all kinds of bodies have a multiple of that.
+            let next = B::lanes_mut(&mut self.q[at + 2]).as_flattened_mut().as_chunks_mut().0;
+            let solution = B::lanes(bundle.solution()).as_flattened().as_chunks().0;
+            for (q, a) in next.iter_mut().zip(solution) {
+                *q = times(a, &[over_kappa; 4]);
                 raise(&mut largest, q);
             }
-            self.p[at] = bundle.director_forces();
+            self.p[at] = bundle.director_forces(simd);
         }
         self.sizes[n + 2] = largest.into_iter().fold(0.0, larger);
-        if self.needs_values() {
+        if needs_values {
             let rows = self.correction.len();
             let lambda = &self.lambda[n * rows..(n + 1) * rows];
             self.rows.store_multipliers(n, lambda);
             self.angles.store_multipliers(n, lambda);
-            for (b, bundle) in self.bundles.iter().enumerate() {
-                for slot in bundle.slots() {
+            for b in 0..self.bundles.len() {
+                for &slot in self.points.convolved(b) {
                     self.values[slot] = B::value(&self.slots[slot], &self.q[b * self.stride + n + 2]);
                 }
             }
@@ -101,6 +108,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     #[inline(always)]
     pub(super) fn needs_values(&self) -> bool {
         self.rows.curved() || !self.angles.is_empty() || !self.loads.is_empty() || !self.prescribed.is_empty()
+    }
+
+    /// Whether no row and no load asks for any feature: nothing but bodies on pivots of the ground, and free ones.
+    #[inline(always)]
+    pub(super) fn is_bare(&self) -> bool {
+        self.schur.factor.numbers() == 0 && !self.needs_values()
     }
 
     /// Takes over coefficient m of all features.
@@ -132,7 +145,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         for pass in 0..=refinements {
             if pass > 0 && self.regularizes_inertia {
                 for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
-                    bundle.remove_regularization(&state[0]);
+                    bundle.remove_regularization(simd, &state[0]);
                 }
             }
             self.set_residual(simd);
@@ -158,7 +171,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 for &slot in self.points.others(b) {
                     B::pull_back(&self.slots[slot], &self.forces[slot], &mut force);
                 }
-                bundle.apply(&state[0], &force);
+                bundle.apply(simd, &state[0], &force);
             }
             if self.regularizes_inertia && !self.regularized {
                 // Corrections shrink by the same factor each time: the next one would be size²/last.

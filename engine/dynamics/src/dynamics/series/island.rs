@@ -1,6 +1,6 @@
 //! The series of one island, bundled as suits its number of bodies: the one place where the kernels are compiled.
 
-use super::{Planar, Series, SeriesStep, StepPlan};
+use super::{Planar, Series, SeriesStep, Single, StepPlan};
 use crate::dynamics::elimination::{Counters, TwistJacobian};
 use crate::newton::Projectable;
 use crate::system::System;
@@ -10,7 +10,7 @@ use crate::system::index::SolverRow;
 #[derive(Clone, Debug)]
 enum Bundled {
     /// One body.
-    Narrow(Box<Series<1>>),
+    Narrow(Box<Series<1, Single>>),
     /// Several.
     Wide(Box<Series<4>>),
     /// One body in a plane.
@@ -39,7 +39,7 @@ impl IslandSeries {
     /// Allocates for motion in space, and coefficients up to order `order`; `turns` are the angles of joints at the start.
     pub fn in_space(system: &System, order: usize, turns: &[f64]) -> Self {
         Self(match system.bodies.len() {
-            1 => Bundled::Narrow(Box::new(Series::new(system, order, turns))),
+            1 => Bundled::Narrow(Box::new(Series::single(system, order, turns))),
             _ => Bundled::Wide(Box::new(Series::new(system, order, turns))),
         })
     }

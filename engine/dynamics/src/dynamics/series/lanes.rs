@@ -83,6 +83,24 @@ pub fn times_whole<S: Simd, const L: usize>(simd: S, a: &Lane<L>, b: &Lane<L>) -
     }
 }
 
+/// a + b, likewise.
+#[inline(always)]
+pub fn sum_whole<S: Simd, const L: usize>(simd: S, a: &Lane<L>, b: &Lane<L>) -> Lane<L> {
+    match (register::<S, L>(a), register::<S, L>(b)) {
+        (Some(a), Some(b)) => lane::<S, L>(simd.add_f64s(a, b)),
+        _ => sum(a, b),
+    }
+}
+
+/// a − b, likewise.
+#[inline(always)]
+pub fn difference_whole<S: Simd, const L: usize>(simd: S, a: &Lane<L>, b: &Lane<L>) -> Lane<L> {
+    match (register::<S, L>(a), register::<S, L>(b)) {
+        (Some(a), Some(b)) => lane::<S, L>(simd.sub_f64s(a, b)),
+        _ => sum(a, &negative(b)),
+    }
+}
+
 /// a b + c.
 #[inline(always)]
 pub fn plus_whole<S: Simd, const L: usize>(simd: S, a: &Lane<L>, b: &Lane<L>, c: &Lane<L>) -> Lane<L> {

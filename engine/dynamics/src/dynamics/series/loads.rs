@@ -4,7 +4,7 @@ use super::bodies::{Bodies, LanePlace};
 use super::constraints::AngleSeries;
 use super::lanes::LaneVector;
 use super::recurrence::{
-    Vectors, dot, product, product_with_rate, quotient, rate, root, scaled, value, vector_value,
+    Vectors, dot, product_with_rate, quotient, rate, root, scaled, square, value, vector_value,
 };
 use crate::model::motion::VectorCurve;
 use crate::model::{BodyRef, ForceLaw};
@@ -106,6 +106,7 @@ impl LawSeries {
         self.force[n] = other - stiffness * stretch;
     }
 
+    #[inline(always)]
     fn set_tanh(&mut self, n: usize) {
         if n == 0 {
             self.tanh[0] = libm::tanh(self.slip[0]);
@@ -115,7 +116,7 @@ impl LawSeries {
             return;
         }
         self.tanh[n] = (1..=n).map(|j| j as f64 * self.slip[j] * self.rest[n - j]).sum::<f64>() / n as f64;
-        self.rest[n] = -product(&self.tanh, &self.tanh, n);
+        self.rest[n] = -square(&self.tanh, n);
     }
 
     /// Whether it is the spring −k x, for which the length as such need not be known.
@@ -266,7 +267,7 @@ impl Loads {
             match load {
                 Load::Given { .. } => {}
                 Load::Spring { from, to, between, square, law, .. } => {
-                    between[m] = difference([Some(*to), Some(*from)], values);
+                    between[m] = LanePlace::difference([Some(*to), Some(*from)], values);
                     square[m] = dot(between, between, m);
                     law.x[m] = root(square[m], &law.x, m);
                 }
@@ -276,7 +277,7 @@ impl Loads {
                 }
                 Load::Slider { axis, ends, direction, between, law } => {
                     direction[m] = axis.get(values).into();
-                    between[m] = difference(*ends, values);
+                    between[m] = LanePlace::difference(*ends, values);
                     law.x[m] = dot(direction, between, m);
                 }
             }
@@ -335,6 +336,7 @@ impl Loads {
     }
 
     /// Power of order n of all that is not a spring; lower orders must have been asked for before.
+    #[inline(always)]
     pub fn power<'a, const L: usize, B: Bodies<L> + 'a>(
         &mut self,
         n: usize,
@@ -371,6 +373,7 @@ impl Loads {
 }
 
 /// The force on the second point of a spring: f / l times the way between its points.
+#[inline(always)]
 fn spring_force(
     n: usize,
     between: &[Vector3<f64>],
@@ -387,13 +390,4 @@ fn spring_force(
     law.find(n);
     over_length[n] = quotient(law.force[n], &law.x, over_length, n);
     scaled(over_length, between, n)
-}
-
-/// Difference of two features.
-fn difference<const L: usize>(
-    [plus, minus]: [Option<LanePlace>; 2],
-    values: &[LaneVector<L>],
-) -> Vector3<f64> {
-    let value = |place: Option<LanePlace>| place.map_or(Vector3::zeros(), |p| p.get(values).into());
-    value(plus) - value(minus)
 }

@@ -46,22 +46,13 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// function, because it is compiled for each kind of bundle and each set of vector instructions.
     #[inline(always)]
     pub(super) fn correct_here<S: Simd>(&mut self, simd: S, which: usize) -> f64 {
-        self.place_values();
-        if which == 0 {
-            self.set_violation();
-        } else {
-            self.rows.store_factors(0, &self.values);
-            self.angles.place(&self.values);
-            self.values_of(|state, _| state[1]);
-            self.set_ground(false);
-            let state = &self.state;
-            self.prescribed.prepare::<L, B>(1, 1.0, |b, _| &state[b][0]);
-            self.prescribed.add_known(1.0, &mut self.values);
-            self.rows.set_rate_violation(B::DIRECTIONS, &self.values);
-            self.angles.set_rate_violation(&self.values, &mut self.rows.extra);
-        }
-        if which > 0 {
-            self.prescribed.demand(which, 1.0, &mut self.rows.extra);
+        if !self.is_bare() {
+            self.place_values();
+            if which == 0 {
+                self.set_violation();
+            } else {
+                self.set_rate_violation();
+            }
         }
         for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
             bundle.clear_force();
@@ -70,7 +61,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             } else {
                 bundle.velocity_correction(&state[0], &state[1])
             };
-            bundle.begin(&state[0], &gamma, B::no_moment());
+            bundle.begin(simd, &state[0], &gamma, B::no_moment());
         }
         self.prescribed.clear_known();
         // The multipliers of a correction mean nothing; the highest order has room for them.
@@ -90,14 +81,29 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     #[inline(always)]
     pub(super) fn settle(&mut self) {
         self.place_values();
-        self.rows.store_factors(0, &self.values);
+        self.take_factors();
         self.angles.place(&self.values);
+    }
+
+    /// Φ̇ of the joints' rows, from the features' values in place.
+    #[inline(always)]
+    fn set_rate_violation(&mut self) {
+        self.take_factors();
+        self.angles.place(&self.values);
+        self.values_of(|state, _| state[1]);
+        self.set_ground(false);
+        let state = &self.state;
+        self.prescribed.prepare::<L, B>(1, 1.0, |b, _| &state[b][0]);
+        self.prescribed.add_known(1.0, &mut self.values);
+        self.rows.set_rate_violation(B::DIRECTIONS, &self.values);
+        self.angles.set_rate_violation(&self.values, &mut self.rows.extra);
+        self.prescribed.demand(1, 1.0, &mut self.rows.extra);
     }
 
     /// Φ of the joints' rows, from the features' values in place.
     #[inline(always)]
     pub(super) fn set_violation(&mut self) {
-        self.rows.store_factors(0, &self.values);
+        self.take_factors();
         self.angles.place(&self.values);
         self.rows.set_violation(B::DIRECTIONS, &self.values);
         self.angles.set_violation(&self.values, &mut self.rows.extra);

@@ -1,39 +1,83 @@
 //! Arithmetic on power series, coefficient by coefficient — eq. (11.4).
 
 use nalgebra::Vector3;
+use triad_linalg::fma;
 
 /// Coefficients of a vector.
 pub type Vectors = Vec<Vector3<f64>>;
 
+/// The sum of products of the numbers of one list, from its beginning, with those of another, from its end: four sums beside each
+/// other, so that none waits for another.
+#[inline(always)]
+pub fn folded(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let ((heads, last), (first, tails)) = (a.as_chunks::<4>(), b.as_rchunks::<4>());
+    for (a, b) in heads.iter().zip(tails.iter().rev()) {
+        for c in 0..4 {
+            sums[c] = fma(a[c], b[3 - c], sums[c]);
+        }
+    }
+    let mut rest = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    for (a, b) in last.iter().zip(first.iter().rev()) {
+        rest = fma(*a, *b, rest);
+    }
+    rest
+}
+
+/// The same for vectors.
+#[inline(always)]
+fn folded_dot(a: &[Vector3<f64>], b: &[Vector3<f64>]) -> f64 {
+    let mut sums = [0.0; 3];
+    for (a, b) in a.iter().zip(b.iter().rev()) {
+        for c in 0..3 {
+            sums[c] = fma(a[c], b[c], sums[c]);
+        }
+    }
+    sums[0] + sums[1] + sums[2]
+}
+
 /// Coefficient n of a b.
 #[inline(always)]
 pub fn product(a: &[f64], b: &[f64], n: usize) -> f64 {
-    a[..=n].iter().zip(b[..=n].iter().rev()).map(|(a, b)| a * b).sum()
+    folded(&a[..=n], &b[..=n])
+}
+
+/// Coefficient n of a².
+#[inline(always)]
+pub fn square(a: &[f64], n: usize) -> f64 {
+    let half = n.div_ceil(2);
+    let twice = 2.0 * folded(&a[..half], &a[n + 1 - half..=n]);
+    if n.is_multiple_of(2) { fma(a[half], a[half], twice) } else { twice }
 }
 
 /// Coefficient n of a · b.
 #[inline(always)]
 pub fn dot(a: &[Vector3<f64>], b: &[Vector3<f64>], n: usize) -> f64 {
-    a[..=n].iter().zip(b[..=n].iter().rev()).map(|(a, b)| a.dot(b)).sum()
+    folded_dot(&a[..=n], &b[..=n])
 }
 
 /// Coefficient n of a · b without the terms of a_n and b_n.
 #[inline(always)]
 pub fn inner_dot(a: &[Vector3<f64>], b: &[Vector3<f64>], n: usize) -> f64 {
-    (1..n).map(|i| a[i].dot(&b[n - i])).sum()
+    folded_dot(&a[1..n], &b[1..n])
 }
 
 /// Coefficient n of a v, a scalar times a vector.
 #[inline(always)]
 pub fn scaled(a: &[f64], v: &[Vector3<f64>], n: usize) -> Vector3<f64> {
-    a[..=n].iter().zip(v[..=n].iter().rev()).map(|(a, v)| v * *a).sum()
+    let mut sums = [0.0; 3];
+    for (a, v) in a[..=n].iter().zip(v[..=n].iter().rev()) {
+        for c in 0..3 {
+            sums[c] = fma(*a, v[c], sums[c]);
+        }
+    }
+    sums.into()
 }
 
 /// Coefficient n of a / b, from those of the quotient before it.
 #[inline(always)]
 pub fn quotient(a_n: f64, b: &[f64], before: &[f64], n: usize) -> f64 {
-    let known: f64 = (1..=n).map(|j| b[j] * before[n - j]).sum();
-    (a_n - known) / b[0]
+    (a_n - folded(&b[1..=n], &before[..n])) / b[0]
 }
 
 /// Coefficient n of √a, from those of the root before it.
@@ -42,8 +86,7 @@ pub fn root(a_n: f64, before: &[f64], n: usize) -> f64 {
     if n == 0 {
         return a_n.sqrt();
     }
-    let known: f64 = (1..n).map(|i| before[i] * before[n - i]).sum();
-    0.5 * (a_n - known) / before[0]
+    0.5 * (a_n - folded(&before[1..n], &before[1..n])) / before[0]
 }
 
 /// Coefficient n of the rate of a series.

@@ -10,6 +10,7 @@ use crate::dynamics::series::lanes::{
 };
 use crate::system::{System, body::RigidBody, natural::NaturalCoordinates};
 use nalgebra::Vector3;
+use pulp::Simd;
 use std::ops::Range;
 
 /// L bodies: what never changes, what belongs to the point of expansion, and the present solution.
@@ -20,17 +21,17 @@ pub struct Bundle<const L: usize> {
     /// Their features.
     slots: Range<usize>,
     /// 1/m.
-    inverse_mass: Lane<L>,
+    pub(super) inverse_mass: Lane<L>,
     /// Ī of u, v, w.
-    ibar: LaneVector<L>,
+    pub(super) ibar: LaneVector<L>,
     /// δ, the inertia regularization.
-    regularizing_inertia: Lane<L>,
+    pub(super) regularizing_inertia: Lane<L>,
     /// Constant generalized force: the weight.
-    weight: LaneVector<L>,
+    pub(super) weight: LaneVector<L>,
     /// Half the dual basis of the directors.
-    dual: [LaneVector<L>; 3],
+    pub(super) dual: [LaneVector<L>; 3],
     /// Rows of I_g⁻¹, δ included.
-    inverse: [LaneVector<L>; 3],
+    pub(super) inverse: [LaneVector<L>; 3],
     /// Lower triangle (00, 10, 11, 20, 21, 22) of C⁻¹, I_g = C Cᵀ.
     lower: [Lane<L>; 6],
     /// Generalized force that acts, less the known convolutions.
@@ -207,29 +208,6 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
         }
     }
 
-    #[inline(always)]
-    fn twice_kinetic(&self, rate: &Natural<L>) -> Lane<L> {
-        let mut twice = dot(&rate[0], &rate[0]);
-        for l in 0..L {
-            twice[l] /= self.inverse_mass[l];
-        }
-        for k in 0..3 {
-            twice = plus(&self.ibar[k], &dot(&rate[1 + k], &rate[1 + k]), &twice);
-        }
-        twice
-    }
-
-    #[inline(always)]
-    fn work_of_weight(&self, from: &Natural<L>, to: &Natural<L>) -> Lane<L> {
-        let mut way = to[0];
-        for (way, from) in way.iter_mut().zip(&from[0]) {
-            for l in 0..L {
-                way[l] -= from[l];
-            }
-        }
-        dot(&self.weight, &way)
-    }
-
     /// Dual basis and inertia at the position q.
     #[inline(always)]
     fn linearize(&mut self, q: &Natural<L>) {
@@ -318,12 +296,12 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn gram(q: &[Natural<L>], n: usize, kappa: f64) -> [Lane<L>; 6] {
+    fn gram<S: Simd>(_: S, q: &[Natural<L>], n: usize, kappa: f64) -> [Lane<L>; 6] {
         gram(q, n).map(|entry| entry.map(|x| kappa * x))
     }
 
     #[inline(always)]
-    fn moment(q: &[Natural<L>], p: &[[LaneVector<L>; 3]], n: usize) -> LaneVector<L> {
+    fn moment<S: Simd>(_: S, q: &[Natural<L>], p: &[[LaneVector<L>; 3]], n: usize) -> LaneVector<L> {
         moment(q, p, n)
     }
 
@@ -350,7 +328,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
 
     /// Solution without the joints' forces, for right-hand sides Γ of the rigid-body rows and a known moment.
     #[inline(always)]
-    fn begin(&mut self, q: &Natural<L>, gamma: &[Lane<L>; 6], known: LaneVector<L>) {
+    fn begin<S: Simd>(&mut self, _: S, q: &Natural<L>, gamma: &[Lane<L>; 6], known: LaneVector<L>) {
         let mut moment = known;
         for c in 0..3 {
             moment[c] = sum(&moment[c], &self.moment[c]);
@@ -381,7 +359,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
 
     /// Adds what further generalized forces do.
     #[inline(always)]
-    fn apply(&mut self, q: &Natural<L>, force: &Natural<L>) {
+    fn apply<S: Simd>(&mut self, _: S, q: &Natural<L>, force: &Natural<L>) {
         let mut moment = [[0.0; L]; 3];
         for k in 0..3 {
             add_cross(&mut moment, &q[1 + k], &force[1 + k]);
@@ -395,7 +373,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
 
     /// One proximal step for bodies whose inertia is regularized.
     #[inline(always)]
-    fn remove_regularization(&mut self, q: &Natural<L>) {
+    fn remove_regularization<S: Simd>(&mut self, _: S, q: &Natural<L>) {
         let mut moment = [[0.0; L]; 3];
         for c in 0..3 {
             for l in 0..L {
@@ -408,7 +386,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
 
     /// p_k = P_k − Ī_k ë_k of the solution: what the directors' moments are made of.
     #[inline(always)]
-    fn director_forces(&self) -> [LaneVector<L>; 3] {
+    fn director_forces<S: Simd>(&self, _: S) -> [LaneVector<L>; 3] {
         let mut p = [self.force[1], self.force[2], self.force[3]];
         for k in 0..3 {
             for c in 0..3 {

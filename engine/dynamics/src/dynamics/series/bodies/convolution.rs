@@ -40,8 +40,9 @@ fn part<const L: usize, const W: usize>(x: &Lane<L>, at: usize) -> Lane<W> {
 #[inline(always)]
 fn gram_of<const L: usize, const W: usize>(q: &[Natural<L>], n: usize, at: usize) -> [Lane<W>; 6] {
     let mut sums = Products::default();
-    let (heads, tails) = (q[1..n].iter(), q[1..n].iter().rev());
-    for (a, b) in heads.zip(tails).take((n - 1) / 2) {
+    let half = (n - 1) / 2;
+    let (heads, tails) = (&q[1..=half], &q[n - half..n]);
+    for (a, b) in heads.iter().zip(tails.iter().rev()) {
         sums.add(a, b, at);
     }
     let mut all = sums.symmetric();

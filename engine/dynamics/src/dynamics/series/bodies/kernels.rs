@@ -1,7 +1,7 @@
 //! What the series ask of L bodies side by side, whether they move in space or in a plane.
 
 use super::slot::FeatureSlot;
-use crate::dynamics::series::lanes::{Lane, LaneVector};
+use crate::dynamics::series::lanes::{Lane, LaneVector, lanes_of_rows, rows_of_lanes};
 use crate::system::System;
 use crate::system::body::RigidBody;
 use crate::system::natural::NaturalCoordinates;
@@ -19,6 +19,20 @@ pub trait Points<const L: usize> {
     fn point<S: Simd>(simd: S, slot: &FeatureSlot<L>, x: &Self::Natural) -> LaneVector<L>;
     /// Takes off the generalized force of a force on points, which comes from rows.
     fn pull_off<S: Simd>(simd: S, slot: &FeatureSlot<L>, f: &LaneVector<L>, sum: &mut Self::Natural);
+
+    /// Points as rows of single bodies.
+    #[inline(always)]
+    fn point_rows<S: Simd>(simd: S, slot: &FeatureSlot<L>, x: &Self::Natural) -> [[f64; 4]; L] {
+        let [first, second, third] = Self::point(simd, slot, x);
+        rows_of_lanes(simd, [first, second, third, [0.0; L]])
+    }
+
+    /// Takes off the generalized force of forces on points, row by row; what stands behind the third number counts for nothing.
+    #[inline(always)]
+    fn pull_off_rows<S: Simd>(simd: S, slot: &FeatureSlot<L>, rows: &[[f64; 4]; L], sum: &mut Self::Natural) {
+        let [first, second, third, _] = lanes_of_rows(simd, rows);
+        Self::pull_off(simd, slot, &[first, second, third], sum);
+    }
 }
 
 /// What tells of L bodies whether they are rigid, and how fast they move.
@@ -27,6 +41,10 @@ pub trait Measures<const L: usize>: Points<L> {
     fn pace(rate: &Self::Natural, length: f64) -> Lane<L>;
     /// Largest violation of the rigid-body rows, or not a number.
     fn stretch(x: &Self::Natural) -> Lane<L>;
+    /// Twice the kinetic energy at these rates: Σ m ṙ² + Ī ė².
+    fn twice_kinetic(&self, rate: &Self::Natural) -> Lane<L>;
+    /// Work of the weight on the way from one position to another.
+    fn work_of_weight(&self, from: &Self::Natural, to: &Self::Natural) -> Lane<L>;
 }
 
 /// A bundle of L bodies with the kernels that concern each body alone.
@@ -96,10 +114,6 @@ pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     /// Adds a moment on a body.
     fn add_moment(&mut self, lane: usize, moment: &Vector3<f64>);
 
-    /// Twice the kinetic energy at these rates: Σ m ṙ² + Ī ė².
-    fn twice_kinetic(&self, rate: &Self::Natural) -> Lane<L>;
-    /// Work of the weight on the way from one position to another.
-    fn work_of_weight(&self, from: &Self::Natural, to: &Self::Natural) -> Lane<L>;
     /// Dual basis and inertia at the position q.
     fn linearize(&mut self, q: &Self::Natural);
     /// C⁻¹ s̃ of a feature's arm s.
@@ -122,20 +136,20 @@ pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     /// The generalized force at hand.
     fn force_mut(&mut self) -> &mut Self::Natural;
     /// Solution without the joints' forces, for right-hand sides Γ of the rigid-body rows and a known moment.
-    fn begin(&mut self, q: &Self::Natural, gamma: &Self::Rigid, moment: Self::Moment);
+    fn begin<S: Simd>(&mut self, simd: S, q: &Self::Natural, gamma: &Self::Rigid, moment: Self::Moment);
     /// Adds what further generalized forces do.
-    fn apply(&mut self, q: &Self::Natural, force: &Self::Natural);
+    fn apply<S: Simd>(&mut self, simd: S, q: &Self::Natural, force: &Self::Natural);
     /// One proximal step for bodies whose inertia is regularized.
-    fn remove_regularization(&mut self, q: &Self::Natural);
+    fn remove_regularization<S: Simd>(&mut self, simd: S, q: &Self::Natural);
     /// The solution.
     fn solution(&self) -> &Self::Natural;
     /// p_k = P_k − Ī_k ë_k of the solution.
-    fn director_forces(&self) -> Self::Directors;
+    fn director_forces<S: Simd>(&self, simd: S) -> Self::Directors;
 
     /// κ times −Σ e_k(i) · e_l(n−i) over 0 < i < n for the rigid-body rows, from the series q.
-    fn gram(q: &[Self::Natural], n: usize, kappa: f64) -> Self::Rigid;
+    fn gram<S: Simd>(simd: S, q: &[Self::Natural], n: usize, kappa: f64) -> Self::Rigid;
     /// Σ_k Σ e_k(i) × p_k(n−i) over 0 < i ≤ n: the part of the moment that lower orders make.
-    fn moment(q: &[Self::Natural], p: &[Self::Directors], n: usize) -> Self::Moment;
+    fn moment<S: Simd>(simd: S, q: &[Self::Natural], p: &[Self::Directors], n: usize) -> Self::Moment;
     /// No moment.
     fn no_moment() -> Self::Moment;
     /// Right-hand sides that correct positions.

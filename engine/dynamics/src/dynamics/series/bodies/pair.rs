@@ -37,8 +37,9 @@ pub fn cross<const L: usize>(a: &Pair<L>, b: &Pair<L>) -> Lane<L> {
 #[inline(always)]
 pub fn gram<const L: usize>(q: &[[Pair<L>; 2]], n: usize, kappa: f64) -> Lane<L> {
     let mut sums = [[0.0; L]; 2];
-    let (heads, tails) = (q[1..n].iter(), q[1..n].iter().rev());
-    for ([_, a], [_, b]) in heads.zip(tails).take((n - 1) / 2) {
+    let half = (n - 1) / 2;
+    let (heads, tails) = (&q[1..=half], &q[n - half..n]);
+    for ([_, a], [_, b]) in heads.iter().zip(tails.iter().rev()) {
         for (c, all) in sums.iter_mut().enumerate() {
             *all = plus(&a[c], &b[c], all);
         }

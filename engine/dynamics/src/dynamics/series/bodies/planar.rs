@@ -11,6 +11,7 @@ use crate::system::System;
 use crate::system::body::{PlanarPose, RigidBody};
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
+use pulp::Simd;
 use std::ops::Range;
 
 /// L bodies in a plane.
@@ -21,7 +22,7 @@ pub struct Planar<const L: usize> {
     /// How each body stands in the plane, and the plane itself.
     poses: [PlanarPose; L],
     height: Lane<L>,
-    mass: Lane<L>,
+    pub(super) mass: Lane<L>,
     /// 1/m, or zero for a body on a ground pivot: then 1, the pivot in the body's frame, and on the ground.
     inverse_mass: Lane<L>,
     pivoted: Lane<L>,
@@ -29,9 +30,9 @@ pub struct Planar<const L: usize> {
     ground: Pair<L>,
     /// From the centre of mass to the pivot, at the point of expansion.
     arm: Pair<L>,
-    inertia: Lane<L>,
+    pub(super) inertia: Lane<L>,
     regularizing_inertia: Lane<L>,
-    weight: Pair<L>,
+    pub(super) weight: Pair<L>,
     /// z / (2 |z|²), and the part of z̈ that satisfies z · z = 1.
     dual: Pair<L>,
     particular: Pair<L>,
@@ -230,19 +231,6 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn twice_kinetic(&self, [r, z]: &[Pair<L>; 2]) -> Lane<L> {
-        each(|l| {
-            let [straight, turning] = [r, z].map(|rate| rate[0][l] * rate[0][l] + rate[1][l] * rate[1][l]);
-            self.mass[l] * straight + self.inertia[l] * turning
-        })
-    }
-
-    #[inline(always)]
-    fn work_of_weight(&self, from: &[Pair<L>; 2], to: &[Pair<L>; 2]) -> Lane<L> {
-        each(|l| (0..2).map(|c| self.weight[c][l] * (to[0][c][l] - from[0][c][l])).sum())
-    }
-
-    #[inline(always)]
     fn linearize(&mut self, q: &[Pair<L>; 2]) {
         let z = &q[1];
         self.arm = turned(&self.pivot, z);
@@ -320,7 +308,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn begin(&mut self, q: &[Pair<L>; 2], (gamma, radial): &Self::Rigid, mut moment: Lane<L>) {
+    fn begin<S: Simd>(&mut self, _: S, q: &[Pair<L>; 2], (gamma, radial): &Self::Rigid, mut moment: Lane<L>) {
         let z = &q[1];
         for l in 0..L {
             self.particular[0][l] = gamma[l] * self.dual[0][l];
@@ -339,7 +327,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn apply(&mut self, q: &[Pair<L>; 2], force: &[Pair<L>; 2]) {
+    fn apply<S: Simd>(&mut self, _: S, q: &[Pair<L>; 2], force: &[Pair<L>; 2]) {
         let z = &q[1];
         let moment = cross(z, &force[1]);
         for c in 0..2 {
@@ -352,7 +340,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn remove_regularization(&mut self, q: &[Pair<L>; 2]) {
+    fn remove_regularization<S: Simd>(&mut self, _: S, q: &[Pair<L>; 2]) {
         let moment = each(|l| self.regularizing_inertia[l] * (self.omega[l] - self.taken_out[l]));
         self.taken_out = self.omega;
         self.turn(&q[1], &[[0.0; L]; 2], &moment);
@@ -364,7 +352,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn director_forces(&self) -> Pair<L> {
+    fn director_forces<S: Simd>(&self, _: S) -> Pair<L> {
         let radial: Pair<L> =
             [0, 1].map(|c| each(|l| self.mass[l] * self.solution[0][c][l] - self.force[0][c][l]));
         // Along z and J z, as in [`Bodies::pull_back`].
@@ -378,12 +366,12 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn gram(q: &[[Pair<L>; 2]], n: usize, kappa: f64) -> Self::Rigid {
+    fn gram<S: Simd>(_: S, q: &[[Pair<L>; 2]], n: usize, kappa: f64) -> Self::Rigid {
         (gram(q, n, kappa), [[0.0; L]; 2])
     }
 
     #[inline(always)]
-    fn moment(q: &[[Pair<L>; 2]], p: &[Pair<L>], n: usize) -> Lane<L> {
+    fn moment<S: Simd>(_: S, q: &[[Pair<L>; 2]], p: &[Pair<L>], n: usize) -> Lane<L> {
         moment(q, p, n)
     }
 

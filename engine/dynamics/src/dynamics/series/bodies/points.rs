@@ -1,9 +1,11 @@
 //! Points of bodies on their way to the rows of joints, and forces on their way back.
 
 use super::bundle::Bundle;
+use super::components::{Components, combined, widened};
 use super::kernels::Points;
 use super::pair::Pair;
 use super::planar::Planar;
+use super::single::Single;
 use super::slot::FeatureSlot;
 use crate::dynamics::series::lanes::{LaneVector, Natural, less_whole, plus_whole, times_whole};
 use pulp::Simd;
@@ -52,5 +54,41 @@ impl<const L: usize> Points<L> for Planar<L> {
         r[1] = less_whole(simd, point, y, &r[1]);
         z[0] = less_whole(simd, b, y, &less_whole(simd, a, x, &z[0]));
         z[1] = plus_whole(simd, b, x, &less_whole(simd, a, y, &z[1]));
+    }
+}
+
+impl Points<1> for Single {
+    type Natural = [Components; 4];
+
+    #[inline(always)]
+    fn point<S: Simd>(simd: S, slot: &FeatureSlot<1>, x: &[Components; 4]) -> LaneVector<1> {
+        let [[x, y, z, _]] = Self::point_rows(simd, slot, x);
+        [[x], [y], [z]]
+    }
+
+    #[inline(always)]
+    fn pull_off<S: Simd>(simd: S, slot: &FeatureSlot<1>, f: &LaneVector<1>, sum: &mut [Components; 4]) {
+        Self::pull_off_rows(simd, slot, &[widened(f)], sum);
+    }
+
+    #[inline(always)]
+    fn point_rows<S: Simd>(simd: S, slot: &FeatureSlot<1>, [r, u, v, w]: &[Components; 4]) -> [[f64; 4]; 1] {
+        let [[a], [b], [c]] = slot.local;
+        let turning = combined(simd, [a, b, c], &[*u, *v, *w]);
+        [plus_whole(simd, &[slot.point[0]; 4], r, &turning)]
+    }
+
+    #[inline(always)]
+    fn pull_off_rows<S: Simd>(
+        simd: S,
+        slot: &FeatureSlot<1>,
+        [[x, y, z, _]]: &[[f64; 4]; 1],
+        sum: &mut [Components; 4],
+    ) {
+        let f = [*x, *y, *z, 0.0];
+        for (sum, factor) in sum.iter_mut().zip([&slot.point, &slot.local[0], &slot.local[1], &slot.local[2]])
+        {
+            *sum = less_whole(simd, &[factor[0]; 4], &f, sum);
+        }
     }
 }

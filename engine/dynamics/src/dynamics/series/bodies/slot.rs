@@ -1,6 +1,7 @@
 //! A feature of each of L bodies, and where the numbers of one of them stand.
 
 use crate::dynamics::series::lanes::{Lane, LaneVector};
+use nalgebra::Vector3;
 
 /// A feature of each of L bodies (or of none: all zero).
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +28,15 @@ impl LanePlace {
         let value = &values[self.slot];
         let lane = self.lane % L;
         [value[0][lane], value[1][lane], value[2][lane]]
+    }
+
+    /// Difference of the numbers at two places, or of those at one.
+    pub fn difference<const L: usize>(
+        [plus, minus]: [Option<Self>; 2],
+        values: &[LaneVector<L>],
+    ) -> Vector3<f64> {
+        let value = |place: Option<Self>| place.map_or(Vector3::zeros(), |p| p.get(values).into());
+        value(plus) - value(minus)
     }
 
     /// Replaces the numbers there.

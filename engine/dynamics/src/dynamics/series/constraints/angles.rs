@@ -2,7 +2,9 @@
 
 use crate::dynamics::series::bodies::LanePlace;
 use crate::dynamics::series::lanes::LaneVector;
-use crate::dynamics::series::recurrence::{Vectors, dot, inner_dot, product, quotient, scaled, value};
+use crate::dynamics::series::recurrence::{
+    Vectors, dot, folded, inner_dot, product, quotient, scaled, square, value,
+};
 use crate::state::AngleState;
 use crate::system::System;
 use crate::system::feature::Difference;
@@ -24,6 +26,10 @@ pub struct AngleSeries {
     sine: Vec<f64>,
     /// Coefficients of θ.
     pub theta: Vec<f64>,
+    /// Those of x, y and θ, each times its order.
+    rates: [Vec<f64>; 3],
+    /// Whether a row relates it to others, which asks for x and y over x² + y².
+    related: bool,
     /// Value and gradient at the state; whole turns are counted from the value that the last series gave.
     pub state: AngleState,
 }
@@ -40,6 +46,8 @@ impl AngleSeries {
             cosine: scalar(),
             sine: scalar(),
             theta: scalar(),
+            rates: [0; 3].map(|_| scalar()),
+            related: false,
             state: AngleState { reference: start, ..AngleState::default() },
         }
     }
@@ -50,6 +58,7 @@ impl AngleSeries {
     }
 
     /// Takes over coefficient m of the features, all before it being known.
+    #[inline(always)]
     pub fn store<const L: usize>(&mut self, m: usize, values: &[LaneVector<L>]) {
         for (vectors, place) in self.vectors.iter_mut().zip(self.places) {
             vectors[m] = place.get(values).into();
@@ -57,29 +66,34 @@ impl AngleSeries {
         let [a1, a2, b] = &self.vectors;
         self.x[m] = dot(a1, b, m);
         self.y[m] = dot(a2, b, m);
-        self.square[m] = product(&self.x, &self.x, m) + product(&self.y, &self.y, m);
-        self.cosine[m] = quotient(self.x[m], &self.square, &self.cosine, m);
-        self.sine[m] = quotient(self.y[m], &self.square, &self.sine, m);
+        self.square[m] = square(&self.x, m) + square(&self.y, m);
+        if self.related {
+            self.cosine[m] = quotient(self.x[m], &self.square, &self.cosine, m);
+            self.sine[m] = quotient(self.y[m], &self.square, &self.sine, m);
+        }
         if m == 0 {
             self.place(values);
             self.theta[0] = self.state.value;
         } else {
             self.theta[m] = self.term(m, self.x[m], self.y[m]);
         }
+        for (rate, term) in self.rates.iter_mut().zip([self.x[m], self.y[m], self.theta[m]]) {
+            rate[m] = m as f64 * term;
+        }
     }
 
     /// θ_m for given x_m and y_m: ρ θ̇ = x ẏ − y ẋ with ρ = x² + y².
+    #[inline(always)]
     fn term(&self, m: usize, x_m: f64, y_m: f64) -> f64 {
         let (x, y) = (&self.x, &self.y);
-        let mut sum = m as f64 * (x[0] * y_m - y[0] * x_m);
-        for i in 1..m {
-            let k = (m - i) as f64;
-            sum += k * (x[i] * y[m - i] - y[i] * x[m - i] - self.square[i] * self.theta[m - i]);
-        }
-        sum / (m as f64 * self.square[0])
+        let [x_rate, y_rate, rate] = self.rates.each_ref().map(|rates| &rates[1..m]);
+        let sum = folded(&x[1..m], y_rate) - folded(&y[1..m], x_rate) - folded(&self.square[1..m], rate);
+        let order = m as f64;
+        (order * (x[0] * y_m - y[0] * x_m) + sum) / (order * self.square[0])
     }
 
     /// θ_m without what coefficient m of the features adds to it.
+    #[inline(always)]
     fn known(&self, m: usize) -> f64 {
         let [a1, a2, b] = &self.vectors;
         self.term(m, inner_dot(a1, b, m), inner_dot(a2, b, m))
@@ -155,6 +169,7 @@ impl Angles {
         let angles = system.angles.iter().zip(starts);
         let list =
             angles.map(|(a, start)| AngleSeries::new(a.features().map(|f| place[f.index()]), stride, start));
+        let mut list: Vec<AngleSeries> = list.collect();
         let relations = system.rows.iter().filter_map(|row| {
             let Form::Relation { angles, slide, constant } = row.form else { return None };
             let places: Vec<LanePlace> =
@@ -178,7 +193,11 @@ impl Angles {
                 places,
             })
         });
-        Self { relations: relations.collect(), list: list.collect() }
+        let relations: Vec<Relation> = relations.collect();
+        for turn in relations.iter().flat_map(|relation| relation.angles.iter().flatten()) {
+            list[turn.angle].related = true;
+        }
+        Self { list, relations }
     }
 
     /// Whether there are none.

@@ -1,11 +1,13 @@
 //! The points of joints bundle by bundle: what they say of the rows that hold two of them together goes straight into the
 //! right-hand side, and multipliers come straight back as forces, four numbers at a time.
 
+use super::vectors::{JointVectors, held_products, index};
 use crate::dynamics::series::bodies::{Bodies, FeatureSlot, LanePlace};
-use crate::dynamics::series::lanes::{lanes_of_rows, rows_of_lanes};
 use crate::model::BodyRef;
 use crate::system::System;
+use crate::system::angle::Angle;
 use crate::system::index::FeatureId;
+use crate::system::load::SystemLoad;
 use crate::system::row::Form;
 use pulp::Simd;
 use std::ops::Range;
@@ -29,8 +31,46 @@ pub struct JointPoints<const L: usize> {
     /// Those of each bundle.
     of_bundle: Vec<Range<usize>>,
     /// Slots whose features other rows ask for, bundle by bundle.
-    others: Vec<usize>,
-    others_of_bundle: Vec<Range<usize>>,
+    others: Slots,
+    /// Slots whose features convolutions ask for, or forces of lower orders act on.
+    convolved: Slots,
+    /// Those of products, if there are any.
+    vectors: Option<JointVectors<L>>,
+}
+
+/// Slots, bundle by bundle.
+#[derive(Clone, Debug)]
+struct Slots {
+    all: Vec<usize>,
+    of_bundle: Vec<Range<usize>>,
+}
+
+impl Slots {
+    fn new<const L: usize, B: Bodies<L>>(bundles: &[B], belongs: &[bool]) -> Self {
+        let mut slots = Self { all: Vec::new(), of_bundle: Vec::new() };
+        for bundle in bundles {
+            let first = slots.all.len();
+            slots.all.extend(bundle.slots().filter(|&slot| belongs[slot]));
+            slots.of_bundle.push(first..slots.all.len());
+        }
+        slots
+    }
+
+    #[inline(always)]
+    fn of(&self, b: usize) -> &[usize] {
+        &self.all[self.of_bundle[b].clone()]
+    }
+}
+
+/// Features of bodies that convolutions ask for, or that forces of lower orders act on: all but those of rows that are linear.
+fn convolved(system: &System) -> Vec<FeatureId> {
+    let curved =
+        system.rows.iter().filter(|row| matches!(row.form, Form::Product { .. } | Form::Relation { .. }));
+    let of_rows = curved.flat_map(|row| row.form.features(&system.angles));
+    let of_angles = system.angles.iter().flat_map(Angle::features);
+    let of_loads = system.loads.iter().flat_map(SystemLoad::features);
+    let driven = (0..system.features.len()).map(FeatureId).filter(|&f| system[f].curve.is_some());
+    of_rows.chain(of_angles).chain(of_loads).chain(driven).collect()
 }
 
 /// Whether a row holds two points together that no driver moves.
@@ -47,15 +87,19 @@ impl<const L: usize> JointPoints<L> {
         slots: &[FeatureSlot<L>],
         place: &[LanePlace],
         factor: &BlockCholesky,
+        stride: usize,
     ) -> Self {
-        // Far fewer numbers than u32 holds; indices of that kind need one comparison in place of two.
-        let place_of = |row: usize| u32::try_from(factor.places()[row]).unwrap_or(u32::MAX);
-        let nowhere = u32::try_from(factor.numbers()).unwrap_or(u32::MAX);
+        let place_of = |row: usize| index(factor.places()[row]);
+        let nowhere = index(factor.numbers());
         // The ends of rows on each body; a feature may be that of several.
         let mut ends: Vec<Vec<(FeatureId, f64, u32)>> = vec![Vec::new(); system.bodies.len()];
         let mut is_other = vec![false; slots.len()];
+        let mut held = held_products(system, L).into_iter();
         for row in &system.rows {
             let holds = holds_points(system, &row.form);
+            if matches!(row.form, Form::Product { .. }) && held.next() == Some(true) {
+                continue;
+            }
             for (k, feature) in row.form.features(&system.angles).into_iter().enumerate() {
                 let BodyRef::Moving(body) = system[feature].body else { continue };
                 if holds {
@@ -66,14 +110,21 @@ impl<const L: usize> JointPoints<L> {
                 }
             }
         }
+        let mut is_convolved = vec![false; slots.len()];
+        for feature in convolved(system) {
+            if let Some(convolved) = is_convolved.get_mut(place[feature.index()].slot) {
+                *convolved = true;
+            }
+        }
         let mut points = Self {
             slots: Vec::new(),
             of_bundle: Vec::new(),
-            others: Vec::new(),
-            others_of_bundle: Vec::new(),
+            others: Slots::new(bundles, &is_other),
+            convolved: Slots::new(bundles, &is_convolved),
+            vectors: JointVectors::new(system, bundles, slots, place, factor, stride),
         };
         for bundle in bundles {
-            let (first, first_other) = (points.slots.len(), points.others.len());
+            let first = points.slots.len();
             let ends = &ends[bundle.bodies()];
             for k in 0..ends.iter().map(Vec::len).max().unwrap_or(0) {
                 let no_point = FeatureSlot { local: [[0.0; L]; 3], point: [0.0; L] };
@@ -89,29 +140,40 @@ impl<const L: usize> JointPoints<L> {
                 points.slots.push(slot);
             }
             points.of_bundle.push(first..points.slots.len());
-            points.others.extend(bundle.slots().filter(|&slot| is_other[slot]));
-            points.others_of_bundle.push(first_other..points.others.len());
         }
         points
     }
 
     /// Whether other rows ask for features.
     pub fn has_others(&self) -> bool {
-        !self.others.is_empty()
+        !self.others.all.is_empty()
     }
 
     /// Slots of bundle b whose features other rows ask for.
     #[inline(always)]
     pub fn others(&self, b: usize) -> &[usize] {
-        &self.others[self.others_of_bundle[b].clone()]
+        self.others.of(b)
+    }
+
+    /// Slots of bundle b that convolutions ask for, or that forces of lower orders act on.
+    #[inline(always)]
+    pub fn convolved(&self, b: usize) -> &[usize] {
+        self.convolved.of(b)
+    }
+
+    /// Takes over the factors of products at the point of expansion, from the numbers of all factors.
+    #[inline(always)]
+    pub fn take_factors(&mut self, numbers: &[f64]) {
+        if let Some(vectors) = &mut self.vectors {
+            vectors.take_factors(numbers);
+        }
     }
 
     /// Adds to a right-hand side what the points of bundle b make of the bodies' part x of the unknown.
     #[inline(always)]
     pub fn add_residual<S: Simd, B: Bodies<L>>(&self, simd: S, b: usize, x: &B::Natural, out: &mut [f64]) {
         for PointSlot { signed, at } in &self.slots[self.of_bundle[b].clone()] {
-            let [first, second, third] = B::point(simd, signed, x);
-            let rows = rows_of_lanes(simd, [first, second, third, [0.0; L]]);
+            let rows = B::point_rows(simd, signed, x);
             for (row, &at) in rows.iter().zip(at) {
                 if B::DIRECTIONS == 2 {
                     add(&[row[0], row[1]], out, at);
@@ -120,6 +182,9 @@ impl<const L: usize> JointPoints<L> {
                     add(row, out, at);
                 }
             }
+        }
+        if let Some(vectors) = &self.vectors {
+            vectors.add_residual::<S, B>(simd, b, x, out);
         }
     }
 
@@ -145,8 +210,10 @@ impl<const L: usize> JointPoints<L> {
                 }
             }
             // The force of a joint on the body of its first point is −λ.
-            let [first, second, third, _] = lanes_of_rows(simd, &rows);
-            B::pull_off(simd, signed, &[first, second, third], force);
+            B::pull_off_rows(simd, signed, &rows, force);
+        }
+        if let Some(vectors) = &self.vectors {
+            vectors.add_forces::<S, B>(simd, b, multipliers, force);
         }
     }
 }

@@ -1,8 +1,9 @@
 //! The rows of joints on series: what they demand of the next coefficients and the forces that their multipliers make.
 
 use super::points::{NOWHERE, holds_points};
+use super::vectors::{held_products, index};
 use crate::dynamics::series::bodies::LanePlace;
-use crate::dynamics::series::lanes::{Lane, LaneVector, add_dot, dot, scaled};
+use crate::dynamics::series::lanes::{Lane, LaneVector, add_dot, add_scaled, dot, plus, scaled, sum};
 use crate::system::System;
 use crate::system::feature::{Difference, Target};
 use crate::system::index::FeatureId;
@@ -35,11 +36,15 @@ pub struct CommonVector {
 /// L rows x · y − c = 0.
 #[derive(Clone, Debug)]
 pub struct Product<const L: usize> {
-    /// Minuend and subtrahend of x and of y, lane by lane.
-    factors: [[[LanePlace; L]; 2]; 2],
+    /// Where the first numbers of the minuend and of the subtrahend of x and of y stand among those of all features, lane by lane.
+    factors: [[[u32; L]; 2]; 2],
+    /// Whether x and y have subtrahends.
+    differs: [bool; 2],
     /// Solver rows, as many as there are.
     rows: Vec<usize>,
     constant: Lane<L>,
+    /// Whether [`super::JointPoints`] does not see to them, as something in them moves as prescribed.
+    driven: bool,
 }
 
 /// All rows, sorted by form, with the series that convolutions need.
@@ -80,6 +85,7 @@ impl<const L: usize> Rows<L> {
             extra: vec![0.0; factor.numbers() + NOWHERE],
         };
         let at = |f: FeatureId| place[f.index()];
+        let mut held = held_products(system, L).into_iter();
         let pair = |d: Difference| [at(d.plus), d.minus.map_or(nowhere, at)];
         for (index, form) in system.rows.iter().enumerate() {
             let row = factor.places()[form.solver];
@@ -98,7 +104,8 @@ impl<const L: usize> Rows<L> {
                 }
                 Form::Product { a, b, target } => {
                     let constant = if let Target::Constant(c) = target { c } else { 0.0 };
-                    rows.add_product([pair(a), pair(b)], row, constant, nowhere);
+                    let driven = held.next() != Some(true);
+                    rows.add_product([pair(a), pair(b)], row, constant, (nowhere, driven));
                 }
                 Form::Relation { .. } => {}
             }
@@ -108,23 +115,44 @@ impl<const L: usize> Rows<L> {
         rows
     }
 
-    fn add_product(&mut self, factors: [[LanePlace; 2]; 2], row: usize, constant: f64, nowhere: LanePlace) {
+    fn add_product(
+        &mut self,
+        factors: [[LanePlace; 2]; 2],
+        row: usize,
+        constant: f64,
+        (nowhere, driven): (LanePlace, bool),
+    ) {
+        let number = |place: LanePlace| index(place.slot * 3 * L + place.lane);
         if self.products.last().is_none_or(|p| p.rows.len() == L) {
-            let factors = [[[nowhere; L]; 2]; 2];
-            self.products.push(Product { factors, rows: Vec::with_capacity(L), constant: [0.0; L] });
+            self.products.push(Product {
+                factors: [[[number(nowhere); L]; 2]; 2],
+                differs: [false; 2],
+                rows: Vec::with_capacity(L),
+                constant: [0.0; L],
+                driven,
+            });
         }
         let Some(product) = self.products.last_mut() else { return };
         let lane = product.rows.len();
         product.rows.push(row);
         product.constant[lane] = constant;
         for (own, given) in product.factors.iter_mut().flatten().zip(factors.as_flattened()) {
-            own[lane] = *given;
+            own[lane] = number(*given);
+        }
+        for (differs, [_, minus]) in product.differs.iter_mut().zip(factors) {
+            *differs |= minus.slot != nowhere.slot;
         }
     }
 
     /// Whether there are rows that need convolutions.
     pub fn curved(&self) -> bool {
         !self.products.is_empty()
+    }
+
+    /// The numbers of all factors.
+    #[inline(always)]
+    pub fn numbers(&self) -> &[f64] {
+        self.factors.as_flattened().as_flattened().as_flattened()
     }
 
     /// Directions across common vectors, from the features' values.
@@ -156,13 +184,18 @@ impl<const L: usize> Rows<L> {
     #[inline(always)]
     pub fn set_convolutions(&mut self, n: usize, kappa: f64) {
         for (k, product) in self.products.iter().enumerate() {
-            let series = &self.factors[k * self.stride..(k + 1) * self.stride];
-            let mut sum = [0.0; L];
-            for i in 1..=n + 1 {
-                add_dot(&mut sum, &series[i][0], &series[n + 2 - i][1]);
+            let series = &self.factors[k * self.stride + 1..k * self.stride + n + 2];
+            // For each component on its own, so that no sum waits for another.
+            let mut sums = [[0.0; L]; 3];
+            for ([x, _], [_, y]) in series.iter().zip(series.iter().rev()) {
+                for c in 0..3 {
+                    sums[c] = plus(&x[c], &y[c], &sums[c]);
+                }
             }
-            for (lane, &row) in product.rows.iter().enumerate() {
-                self.extra[row] = kappa * sum[lane];
+            let [first, second, third] = &sums;
+            let all = sum(&sum(first, second), third);
+            for (all, &row) in all.iter().zip(&product.rows) {
+                self.extra[row] = kappa * all;
             }
         }
     }
@@ -171,17 +204,13 @@ impl<const L: usize> Rows<L> {
     #[inline(always)]
     pub fn add_known_forces(&self, n: usize, forces: &mut [LaneVector<L>]) {
         for (k, product) in self.products.iter().enumerate() {
-            let series = &self.factors[k * self.stride..(k + 1) * self.stride];
-            let lambda = &self.lambda[k * self.stride..(k + 1) * self.stride];
+            let series = &self.factors[k * self.stride + 1..=k * self.stride + n];
+            let lambda = &self.lambda[k * self.stride..k * self.stride + n];
             let mut sum = [[[0.0; L]; 3]; 2];
-            for i in 1..=n {
-                for side in 0..2 {
-                    crate::dynamics::series::lanes::add_scaled(
-                        &mut sum[side],
-                        &lambda[n - i],
-                        &series[i][1 - side],
-                    );
-                }
+            let [on_x, on_y] = &mut sum;
+            for ([x, y], lambda) in series.iter().zip(lambda.iter().rev()) {
+                add_scaled(on_x, lambda, y);
+                add_scaled(on_y, lambda, x);
             }
             product.add_forces(&sum, forces);
         }
@@ -255,7 +284,7 @@ impl<const L: usize> Rows<L> {
                 out[row.row + k] = sum + self.extra[row.row + k];
             }
         }
-        for (k, product) in self.products.iter().enumerate() {
+        for (k, product) in self.products.iter().enumerate().filter(|(_, product)| product.driven) {
             let [x, y] = &self.factors[k * self.stride];
             let [x_new, y_new] = product.factors(values);
             let mut sum = dot(x, &y_new);
@@ -283,7 +312,7 @@ impl<const L: usize> Rows<L> {
             row.a.add(forces, f.map(|x| -x));
             row.b.add(forces, f);
         }
-        for (k, product) in self.products.iter().enumerate() {
+        for (k, product) in self.products.iter().enumerate().filter(|(_, product)| product.driven) {
             let [x, y] = &self.factors[k * self.stride];
             let own = product.lanes_of(lambda);
             product.add_forces(&[scaled(&own, y), scaled(&own, x)], forces);
@@ -309,12 +338,19 @@ impl<const L: usize> Rows<L> {
 impl<const L: usize> Product<L> {
     #[inline(always)]
     fn factors(&self, values: &[LaneVector<L>]) -> [LaneVector<L>; 2] {
+        let numbers = values.as_flattened().as_flattened();
         let mut out = [[[0.0; L]; 3]; 2];
-        for (out, [plus, minus]) in out.iter_mut().zip(&self.factors) {
-            for lane in 0..self.rows.len().min(L) {
-                let (a, b) = (plus[lane].get(values), minus[lane].get(values));
+        for ((out, [plus, minus]), differs) in out.iter_mut().zip(&self.factors).zip(self.differs) {
+            for (lane, &at) in plus.iter().enumerate() {
+                let Some(x) = numbers.get(at as usize..=at as usize + 2 * L) else { continue };
                 for c in 0..3 {
-                    out[c][lane] = a[c] - b[c];
+                    out[c][lane] = x[c * L];
+                }
+            }
+            for (lane, &at) in minus.iter().enumerate().filter(|_| differs) {
+                let Some(x) = numbers.get(at as usize..=at as usize + 2 * L) else { continue };
+                for c in 0..3 {
+                    out[c][lane] -= x[c * L];
                 }
             }
         }
@@ -333,11 +369,20 @@ impl<const L: usize> Product<L> {
     /// Adds −sum to the forces on the features of x and of y.
     #[inline(always)]
     fn add_forces(&self, sum: &[LaneVector<L>; 2], forces: &mut [LaneVector<L>]) {
-        for (sum, [plus, minus]) in sum.iter().zip(&self.factors) {
-            for lane in 0..self.rows.len().min(L) {
-                let f = [sum[0][lane], sum[1][lane], sum[2][lane]];
-                plus[lane].add(forces, f.map(|x| -x));
-                minus[lane].add(forces, f);
+        let numbers = forces.as_flattened_mut().as_flattened_mut();
+        let used = self.rows.len();
+        for ((sum, [plus, minus]), differs) in sum.iter().zip(&self.factors).zip(self.differs) {
+            for (lane, &at) in plus.iter().enumerate().take(used) {
+                let Some(x) = numbers.get_mut(at as usize..=at as usize + 2 * L) else { continue };
+                for c in 0..3 {
+                    x[c * L] -= sum[c][lane];
+                }
+            }
+            for (lane, &at) in minus.iter().enumerate().take(if differs { used } else { 0 }) {
+                let Some(x) = numbers.get_mut(at as usize..=at as usize + 2 * L) else { continue };
+                for c in 0..3 {
+                    x[c * L] += sum[c][lane];
+                }
             }
         }
     }
