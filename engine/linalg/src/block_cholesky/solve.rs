@@ -86,16 +86,13 @@ impl BlockCholesky {
     #[inline(always)]
     fn forward<const N: usize, const W: usize>(&self, pivots: &Range<usize>, beside: usize, x: &mut [f64]) {
         let (false, Some(first)) = (beside == 0, self.pivots[pivots.clone()].first()) else { return };
-        // No chunks: their number would be found by divisions.
-        let (mut rest, mut others) = (&self.factors[first.diagonal..], &self.beside[first.beside.start..]);
+        let blocks = self.factors[first.diagonal..].chunks_exact((1 + beside) * N * W);
+        let others = self.beside[first.beside.start..].chunks_exact(beside);
         let mut at = first.place;
-        for _ in pivots.clone() {
-            let (blocks, later) = rest.split_at((1 + beside) * N * W);
-            let (own, behind) = others.split_at(beside);
-            (rest, others) = (later, behind);
+        for (blocks, others) in blocks.zip(others).take(pivots.len()) {
             let (_, blocks) = blocks.split_at(N * W);
             let Some(&y) = x[at..].first_chunk::<W>() else { return };
-            for (block, other) in blocks.as_chunks::<W>().0.as_chunks::<N>().0.iter().zip(own) {
+            for (block, other) in blocks.as_chunks::<W>().0.as_chunks::<N>().0.iter().zip(others) {
                 if let Some(target) = x[other.place..].first_chunk_mut::<W>() {
                     kernel::subtract(block, &y, target);
                 }
@@ -112,23 +109,20 @@ impl BlockCholesky {
             self.alone::<N, W>(first, pivots.len(), x);
             return;
         }
-        let numbers = (1 + beside) * N * W;
-        let all = first.diagonal..first.diagonal + pivots.len() * numbers;
-        let (mut blocks, mut turned) = (&self.factors[all.clone()], &self.values[all]);
+        let at = first.diagonal..first.diagonal + pivots.len() * (1 + beside) * N * W;
+        let blocks = self.factors[at.clone()].chunks_exact((1 + beside) * N * W);
+        let turned = self.values[at].chunks_exact((1 + beside) * N * W);
         let mut others = &self.beside[first.beside.start..first.beside.start + pivots.len() * beside];
         let mut at = first.place + pivots.len() * W;
-        for _ in pivots.clone() {
+        for (blocks, turned) in blocks.zip(turned).rev() {
             at -= W;
             let (rest, own) = others.split_at(others.len() - beside);
             others = rest;
-            let (before, own_blocks) = blocks.split_at(blocks.len() - numbers);
-            let (before_turned, own_turned) = turned.split_at(turned.len() - numbers);
-            (blocks, turned) = (before, before_turned);
-            let Some(inverse) = own_blocks.as_chunks::<W>().0.first_chunk::<N>() else { return };
+            let Some(inverse) = blocks.as_chunks::<W>().0.first_chunk::<N>() else { return };
             let Some(y) = x[at..].first_chunk::<W>() else { return };
             let mut solution = kernel::multiply(inverse, y);
-            let (_, own_turned) = own_turned.split_at(N * W);
-            for (block, other) in own_turned.as_chunks::<W>().0.as_chunks::<N>().0.iter().zip(own) {
+            let (_, turned) = turned.split_at(N * W);
+            for (block, other) in turned.as_chunks::<W>().0.as_chunks::<N>().0.iter().zip(own) {
                 if let Some(source) = x[other.place..].first_chunk::<W>() {
                     kernel::subtract(block, source, &mut solution);
                 }
