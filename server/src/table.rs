@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use triad_engine::run::{Column, Outputs, Simulation};
+use triad_engine::run::{Column, Outputs, Simulation, append_row};
 
 /// The time, then what was chosen.
 pub fn all_columns(outputs: &Outputs) -> impl Iterator<Item = Column> {
@@ -53,19 +53,6 @@ impl<W: Write> TextTable<W> {
         self.out.flush()?;
         Ok(self.out)
     }
-}
-
-/// Appends a row and the end of its line: as few digits as give each number back exactly.
-pub fn append_row(text: &mut Vec<u8>, row: &[f64]) {
-    let mut digits = zmij::Buffer::new();
-    for (index, number) in row.iter().enumerate() {
-        if index > 0 {
-            text.push(b',');
-        }
-        let number = digits.format(*number);
-        text.extend_from_slice(number.strip_suffix(".0").unwrap_or(number).as_bytes());
-    }
-    text.push(b'\n');
 }
 
 /// A field, in quotation marks if it needs them.

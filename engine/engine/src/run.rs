@@ -24,7 +24,7 @@ pub use errors::{ErrorEstimate, ReactionErrors};
 pub use events::EventOccurrence;
 pub use explain::SkippedItem;
 pub use frame::{Frame, MarkerFrame};
-pub use outputs::{Column, Moment, Outputs, RowWriter};
+pub use outputs::{Column, Moment, Outputs, RowWriter, append_row};
 pub use singularity::SingularConfiguration;
 pub use snapshot::{Snapshot, list_size};
 pub use state_view::StateView;

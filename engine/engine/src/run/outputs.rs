@@ -2,8 +2,10 @@
 
 mod columns;
 mod moments;
+mod text;
 
 pub use moments::{Moment, RowWriter};
+pub use text::append_row;
 
 use super::{ErrorEstimate, Simulation};
 use crate::integrate::add_power;

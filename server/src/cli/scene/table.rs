@@ -14,10 +14,10 @@ use arrow_ipc::writer::FileWriter;
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use axum::http::StatusCode;
 use rayon::prelude::*;
-use triad_engine::run::{Column, Moment, Outputs, RowWriter, Simulation};
+use triad_engine::run::{Column, Moment, Outputs, RowWriter, Simulation, append_row};
 
 use crate::problem::Problem;
-use crate::table::{TextTable, all_columns, append_row, head};
+use crate::table::{TextTable, all_columns, head};
 
 /// Endings of files that are written as Arrow.
 const ARROW: [&str; 2] = ["arrow", "feather"];
