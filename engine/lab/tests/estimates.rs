@@ -119,6 +119,23 @@ fn the_estimate_of_a_long_run_is_as_good() {
     }
 }
 
+/// The same of a pendulum on a spring, whose potential counts.
+#[test]
+fn the_energy_of_springs_tells_of_errors_too() {
+    let mut scene: serde_json::Value =
+        serde_json::from_str(&catalogue::scene("simple-pendulum").unwrap().to_json()).unwrap();
+    for load in [
+        serde_json::json!({ "type": "spring", "name": "soft", "body_i": "ground", "point_i": [0, -2, 0],
+            "body_j": "bob", "point_j": [0, 0, 0], "stiffness": 3, "free_length": 1 }),
+        serde_json::json!({ "type": "torsion", "name": "soft", "joint": "pin", "stiffness": 3, "free_angle": 0.4 }),
+    ] {
+        scene["loads"] = serde_json::json!([load]);
+        let scene = Scene::from_json(&scene.to_string()).unwrap().duration(200.0).tolerance(1e-7);
+        let judged = judge(&scene).unwrap();
+        assert!(judged.len() >= 15 && judged.iter().all(Judged::is_good), "{judged:?}");
+    }
+}
+
 /// The estimate changes nothing of the motion, nor of what it took.
 #[test]
 fn a_run_without_it_has_the_same_bits() {

@@ -11,10 +11,6 @@ use triad_dynamics::system::System;
 const STANDING: f64 = 1e-3;
 /// Part of the length of the mechanism by which positions may be off before a result is doubted: a hundredth shows in a plot.
 const DOUBTFUL: f64 = 0.01;
-/// How many times the error of the energy may be what the estimate says of it.
-const REFUTING: f64 = 5.0;
-/// Part of the energy that rounding may take in a long run.
-const ROUNDING: f64 = 1e-11;
 
 /// What a run has cost and how far it can be trusted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -107,7 +103,6 @@ impl Simulation {
         let error = self.error_estimate();
         let mut doubts = self.doubts(&singularities, energy_drift);
         doubts.extend(self.doubts_of_error(error));
-        doubts.extend(self.refuted(error, energy, energy_drift));
         Summary {
             time: self.time(),
             energy,
@@ -151,23 +146,6 @@ impl Simulation {
             format!(
                 "positions are off by about {off:.1e} m, more than a hundredth of the mechanism's length of {length:.3} m; \
                  {instead}"
-            )
-        })
-    }
-
-    /// Where nothing does work, the energy witnesses how good the estimate is: of its error the estimate says something, and the truth
-    /// is known.
-    fn refuted(&self, error: Option<ErrorEstimate>, energy: f64, drift: f64) -> Option<String> {
-        let said = error?.energy;
-        let size =
-            self.start_energy.abs() + energy.abs() + self.current.state().kinetic_energy(self.system());
-        let refuted = self.conservative && drift.abs() > REFUTING * said.max(ROUNDING * size);
-        refuted.then(|| {
-            format!(
-                "the energy is off by {:.1e} J, {:.0} times what the estimate of the errors says: positions may be off by as many times \
-                 more than it says, or more; tighten the tolerance, or look at a shorter time",
-                drift.abs(),
-                drift.abs() / said.max(ROUNDING * size)
             )
         })
     }

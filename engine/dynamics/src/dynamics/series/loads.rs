@@ -1,5 +1,7 @@
 //! Loads as series — eq. (11.4), (11.5): forces, moments, and elements along a length, an angle or a displacement.
 
+mod potential;
+
 use super::bodies::{Bodies, LanePlace};
 use super::constraints::AngleSeries;
 use super::lanes::LaneVector;

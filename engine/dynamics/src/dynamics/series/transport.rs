@@ -140,7 +140,8 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         let count = series.bundles.len();
         let nothing = vec![[B::zero(); 2]; count];
         let positions: Vec<B::Natural> = series.state.iter().map(|state| state[0]).collect();
-        let twin = Series { probe: None, ..series.clone() };
+        let mut twin = Series { probe: None, ..series.clone() };
+        let energy = Energy::of(system, &mut twin);
         Self {
             twin,
             error: nothing.clone(),
@@ -155,7 +156,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             step: (0, 0.0),
             factored: [positions.clone(), positions],
             evaluated: None,
-            energy: Energy::of(system, series),
+            energy,
             lost: None,
         }
     }
@@ -316,7 +317,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         self.twin.call(Part::Correct(1));
         let Self { twin, error, energy, .. } = self;
         if let Some(energy) = energy {
-            energy.give(twin, &series.state, s, self.step.1);
+            energy.give(twin, &series.state, s, self.step.1, error);
         }
         self.size =
             Arch::new().dispatch(Between::<L, B> { here: &series.state, there: &twin.state, s, out: error });
