@@ -1,5 +1,5 @@
 //! The second solution beside a run whose integrator carries no error along: the error is what lies between the two —
-//! eq. (11.12).
+//! eq. (11.13).
 
 use crate::integrate::{self, Integrator, StepRecord};
 use crate::scene::{ConstraintMethod, IntegratorKind};

@@ -110,6 +110,24 @@ export const toldOfRuns: Record<string, string> = {
     "Lagen weichen um etwa {off} m ab, mehr als ein Hundertstel der Länge des Mechanismus von {length} m; {cause}",
   "a singular position was passed at t = {time} s, through which {method} holds neither the constraints nor the branch of the motion: what follows may be wrong; {cause}":
     "Bei t = {time} s wurde eine singuläre Lage durchlaufen, in der {method} weder die Zwangsbedingungen noch den Zweig der Bewegung hält: Was folgt, kann falsch sein; {cause}",
+  "{size} of the largest kinetic energy came from nowhere or went there, more than a tolerance of {tolerance} promises; {cause}":
+    "{size} der größten kinetischen Energie kamen aus dem Nichts oder verschwanden darin, mehr als eine Toleranz von {tolerance} verspricht; {cause}",
+  "{size} of the mechanism's size is how far the joints are open, more than a tolerance of {tolerance} promises; {cause}":
+    "Die Gelenke sind um {size} der Größe des Mechanismus offen, mehr als eine Toleranz von {tolerance} verspricht; {cause}",
+  "{size} of the lightest mass is lost in the rounding of the penalties, more than a tolerance of {tolerance} promises; {cause}":
+    "{size} der leichtesten Masse gehen in der Rundung der Straffaktoren verloren, mehr als eine Toleranz von {tolerance} verspricht; {cause}",
+  "tighten the tolerance, or look at a shorter time":
+    "verschärf die Toleranz, oder betrachte eine kürzere Zeit",
+  "use shorter steps, or leave their size to the tolerance":
+    "nimm kürzere Schritte, oder überlass ihre Länge der Toleranz",
+  "use projection, with taylor or dop853": "nimm Projektion, mit taylor oder dop853",
+  "tighten the tolerance, or use taylor": "verschärf die Toleranz, oder nimm taylor",
+  "at t = {time} s the motion passes within {apart} of a branching position of {joints}; either branch may be right: compare with taylor at a tighter tolerance, or change a length a little":
+    "Bei t = {time} s geht die Bewegung im Abstand {apart} an einer Verzweigung von {joints} vorbei; jeder der Zweige kann richtig sein: Vergleiche mit taylor bei schärferer Toleranz, oder ändere eine Länge ein wenig",
+
+  // Analyses.
+  "this analysis takes at most {most} degrees of freedom, because its work grows with their cube; the scene has {freedoms}":
+    "diese Analyse nimmt höchstens {most} Freiheitsgrade, denn ihre Arbeit wächst mit deren dritter Potenz; die Szene hat {freedoms}",
   'this analysis takes at most {most} degrees of freedom, because its work grows with their cube; the scene has {freedoms}, {turns} of which are turns of bodies about axes about which they have no inertia, "{body}" first':
     "diese Analyse nimmt höchstens {most} Freiheitsgrade, denn ihre Arbeit wächst mit deren dritter Potenz; die Szene hat {freedoms}, von denen {turns} Drehungen von Körpern um Achsen sind, um die sie keine Trägheit haben, zuerst „{body}“",
   'no equilibrium was found: after {steps} steps a generalized force of {force} N is left, most of it on body "{body}"':

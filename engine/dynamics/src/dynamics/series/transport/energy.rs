@@ -1,4 +1,4 @@
-//! What the energy tells of an error, where it stays what it is — eq. (11.13).
+//! What the energy tells of an error, where it stays what it is — eq. (11.12).
 //!
 //! The motion without its error has the energy of the start. What an error has of it otherwise is an error of the estimate, and the
 //! one that grows: it changes the pace.
