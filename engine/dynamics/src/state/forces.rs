@@ -246,8 +246,7 @@ impl SystemLoad {
                 (law, at.feature_value(*axis).dot(&between.of(|f| at.feature_value(f))))
             }
         };
-        let stretch = value - law.free;
-        0.5 * law.stiffness * stretch * stretch
+        law.potential(value)
     }
 }
 

@@ -137,6 +137,12 @@ impl SystemLoad {
 }
 
 impl ForceLaw {
+    /// Potential energy of its spring at x, J.
+    pub(crate) fn potential(&self, x: f64) -> f64 {
+        let stretch = x - self.free;
+        0.5 * self.stiffness * stretch * stretch
+    }
+
     /// Force or moment in the direction of growing x — eq. (6.9).
     pub(crate) fn value(&self, x: f64, rate: f64, t: f64) -> f64 {
         self.without_spring(rate, t) - self.stiffness * (x - self.free)

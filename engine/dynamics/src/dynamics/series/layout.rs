@@ -81,7 +81,7 @@ pub(super) fn bundles<const L: usize, B: Bodies<L>>(
     for (first, features) in of_body.chunks(L).enumerate().map(|(b, features)| (b * L, features)) {
         let count = features.iter().map(Vec::len).max().unwrap_or(0);
         let begin = slots.len();
-        slots.resize(begin + count, FeatureSlot { local: [[0.0; L]; 3], point: [0.0; L] });
+        slots.resize(begin + count, FeatureSlot::NOTHING);
         let mut bundle = B::empty(first..first + features.len(), begin..begin + count);
         for (lane, features) in features.iter().enumerate() {
             bundle.set_body(lane, system, &system.bodies[first + lane]);

@@ -121,20 +121,14 @@ impl Stages {
         estimated: f64,
     ) -> Option<Solved> {
         self.predict(last, factors.h);
-        self.scale.clear();
-        self.scale.extend(last.y.iter().enumerate().map(|(i, y)| scale(i, last.y.len(), *y, estimated)));
+        self.set_scale(last, estimated);
         let [wanted, enough] = [ROUNDING.0, ROUNDING.1].map(|rounding| (rounding / estimated).max(SOLVED));
         let most = self.max_iterations();
         let (mut size_before, mut rate, mut contraction) = (0.0f64, 0.0f64, 0.0f64);
         let mut solved = None;
         self.updates.restart();
         for iteration in 0..most {
-            if !self.evaluate(system, last, factors.h, iteration == 0) {
-                return None;
-            }
-            self.correct(jacobian, factors);
-            let size =
-                self.updates.improve(&self.scale) / (self.scale.len() as f64 * self.z.len() as f64).sqrt();
+            let size = self.find_correction(system, last, (jacobian, factors), iteration == 0)?;
             self.apply();
             if solved.is_some() {
                 return solved;
@@ -171,6 +165,28 @@ impl Stages {
             }
         }
         (size_before <= enough).then_some(Solved { iterations: most, contraction })
+    }
+
+    /// The sizes in which errors beside the last step are measured.
+    fn set_scale(&mut self, last: &StepRecord, estimated: f64) {
+        self.scale.clear();
+        self.scale.extend(last.y.iter().enumerate().map(|(i, y)| scale(i, last.y.len(), *y, estimated)));
+    }
+
+    /// Finds the correction of all stages by an iteration of Newton's method, to be applied next. Returns its size, if the stages are finite.
+    fn find_correction(
+        &mut self,
+        system: &mut impl OdeSystem,
+        last: &StepRecord,
+        (jacobian, factors): (&RateJacobian, &mut Factors),
+        first: bool,
+    ) -> Option<f64> {
+        if !self.evaluate(system, last, factors.h, first) {
+            return None;
+        }
+        self.correct(jacobian, factors);
+        let numbers = self.scale.len() as f64 * self.z.len() as f64;
+        Some(self.updates.improve(&self.scale) / numbers.sqrt())
     }
 
     /// ẋ at all stages. False if it is not finite.

@@ -12,6 +12,19 @@ pub struct FeatureSlot<const L: usize> {
     pub point: Lane<L>,
 }
 
+impl<const L: usize> FeatureSlot<L> {
+    /// Of no body.
+    pub const NOTHING: Self = Self { local: [[0.0; L]; 3], point: [0.0; L] };
+
+    /// Takes over the feature of one body from another slot, times a sign.
+    pub fn take_signed(&mut self, lane: usize, sign: f64, from: &Self) {
+        self.point[lane] = sign * from.point[lane];
+        for (own, from) in self.local.iter_mut().zip(&from.local) {
+            own[lane] = sign * from[lane];
+        }
+    }
+}
+
 /// Where a feature's numbers stand: a slot and a lane of it.
 #[derive(Clone, Copy, Debug)]
 pub struct LanePlace {

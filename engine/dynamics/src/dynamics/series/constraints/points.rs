@@ -127,15 +127,11 @@ impl<const L: usize> JointPoints<L> {
             let first = points.slots.len();
             let ends = &ends[bundle.bodies()];
             for k in 0..ends.iter().map(Vec::len).max().unwrap_or(0) {
-                let no_point = FeatureSlot { local: [[0.0; L]; 3], point: [0.0; L] };
-                let mut slot = PointSlot { signed: no_point, at: [nowhere; L] };
+                let mut slot = PointSlot { signed: FeatureSlot::NOTHING, at: [nowhere; L] };
                 for (lane, ends) in ends.iter().enumerate() {
                     let Some(&(feature, sign, at)) = ends.get(k) else { continue };
                     slot.at[lane] = at;
-                    slot.signed.point[lane] = sign;
-                    for c in 0..3 {
-                        slot.signed.local[c][lane] = sign * slots[place[feature.index()].slot].local[c][lane];
-                    }
+                    slot.signed.take_signed(lane, sign, &slots[place[feature.index()].slot]);
                 }
                 points.slots.push(slot);
             }

@@ -88,7 +88,7 @@ impl<const L: usize> JointVectors<L> {
             product += 1;
         }
         let nowhere = VectorSlot {
-            signed: FeatureSlot { local: [[0.0; L]; 3], point: [0.0; L] },
+            signed: FeatureSlot::NOTHING,
             at: [index(factor.numbers()); L],
             partner: [NONE; L],
             other: [[0.0; L]; 3],
@@ -102,10 +102,7 @@ impl<const L: usize> JointVectors<L> {
                 let (k, &End { slot, lane, sign, row, partner }) = end;
                 let vector = &mut vectors.slots[first + k];
                 (vector.at[lane], vector.partner[lane]) = (index(row), index(partner));
-                vector.signed.point[lane] = sign * slots[slot].point[lane];
-                for c in 0..3 {
-                    vector.signed.local[c][lane] = sign * slots[slot].local[c][lane];
-                }
+                vector.signed.take_signed(lane, sign, &slots[slot]);
             }
             vectors.of_bundle.push(first..vectors.slots.len());
         }

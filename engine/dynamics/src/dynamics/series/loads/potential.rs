@@ -21,8 +21,7 @@ impl Loads {
                     (law, Vector3::from(axis.get(values)).dot(&between))
                 }
             };
-            let stretch = x - law.law.free;
-            0.5 * law.law.stiffness * stretch * stretch
+            law.law.potential(x)
         });
         each.sum()
     }

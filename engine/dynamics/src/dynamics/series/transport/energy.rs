@@ -3,7 +3,7 @@
 //! The motion without its error has the energy of the start. What an error has of it otherwise is an error of the estimate, and the
 //! one that grows: it changes the pace.
 
-use crate::dynamics::series::lanes::Lane;
+use crate::dynamics::series::lanes::{Lane, sum};
 use crate::dynamics::series::step::Part;
 use crate::dynamics::series::{Bodies, Series};
 use crate::system::System;
@@ -94,10 +94,8 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Measured<'_, L, B> {
             let half = bundle.twice_kinetic(&series.q[b * series.stride + 2]);
             let found: [Lane<L>; 3] =
                 [bundle.twice_kinetic(rate), half, bundle.work_of_weight(&start[b], position)];
-            for (sum, found) in sums.iter_mut().zip(&found) {
-                for l in 0..L {
-                    sum[l] += found[l];
-                }
+            for (all, found) in sums.iter_mut().zip(&found) {
+                *all = sum(all, found);
             }
         }
         let [twice, half, fallen] = sums.map(|lanes| lanes.into_iter().sum::<f64>());

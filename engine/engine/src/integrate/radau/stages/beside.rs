@@ -1,6 +1,6 @@
 //! The stages of a step that another run has taken with fewer of them.
 
-use super::{DIVERGING, DIVERGING_AT_FIRST, ROUNDING, Stages, combine, scale};
+use super::{DIVERGING, DIVERGING_AT_FIRST, ROUNDING, Stages, combine};
 use crate::integrate::radau::linear::{Factors, RateJacobian};
 use crate::integrate::step::StepRecord;
 use nalgebra::DMatrix;
@@ -26,17 +26,13 @@ impl Stages {
     ) -> bool {
         combine(between, &other.z_old, &mut self.z);
         self.turn_over();
-        self.scale.clear();
-        self.scale.extend(last.y.iter().enumerate().map(|(i, y)| scale(i, last.y.len(), *y, 1.0)));
+        self.set_scale(last, 1.0);
         self.updates.restart();
         let (mut first, mut before) = (0.0, 0.0f64);
         for iteration in 0..MOST_BESIDE {
-            if !self.evaluate(system, last, factors.h, iteration == 0) {
+            let Some(size) = self.find_correction(system, last, (jacobian, factors), iteration == 0) else {
                 return false;
-            }
-            self.correct(jacobian, factors);
-            let size =
-                self.updates.improve(&self.scale) / (self.scale.len() as f64 * self.z.len() as f64).sqrt();
+            };
             if let Some(reached) = self.z.last() {
                 self.trial.copy_from_slice(reached);
             }
