@@ -119,6 +119,39 @@ fn the_estimate_of_a_long_run_is_as_good() {
     }
 }
 
+/// The same where no energy is kept: of a pendulum on a spring that pulls now more, now less, and of a top that is driven round.
+#[test]
+fn the_estimate_of_a_long_driven_run_is_as_good() {
+    let pendulum = serde_json::json!({
+        "name": "pulled", "title": "A pendulum and an actuated spring", "gravity": [0, -9.81, 0],
+        "bodies": [{ "name": "rod", "mass": 1.2, "inertia": { "principal": [0.0005, 0.1, 0.1] }, "center_of_mass": [0.5, 0, 0] }],
+        "joints": [{ "name": "pivot", "type": "revolute", "body_i": "ground", "body_j": "rod", "point": [0, 0, 0],
+            "axis": [0, 0, 1], "start": { "angle": -1.2 } }],
+        "loads": [{ "name": "spring", "type": "spring", "body_i": "ground", "body_j": "rod", "point_i": [0.3, -1, 0.1],
+            "point_j": [0.8, 0, 0.1], "stiffness": 40, "free_length": 0.3,
+            "force": { "kind": "harmonic", "mean": 0, "amplitude": 0.4, "frequency": 1.3, "phase": 0.2 } }],
+    });
+    let top = serde_json::json!({
+        "name": "pushed", "title": "A top that a moment pushes", "gravity": [0, -9.81, 0],
+        "bodies": [{ "name": "top", "mass": 1, "inertia": { "principal": [0.02, 0.03, 0.05] },
+            "center_of_mass": [0.1, 0.02, 0.3], "angular_velocity": [0.3, 0.2, 25] }],
+        "joints": [{ "name": "ball", "type": "spherical", "body_i": "ground", "body_j": "top", "point": [0, 0, 0] }],
+        "loads": [{ "name": "push", "type": "moment", "body": "top", "moment": [0, 0.05, 0] }],
+    });
+    for (scene, duration, tolerance) in
+        [(&pendulum, 300.0, 1e-7), (&pendulum, 160.0, 1e-5), (&pendulum, 300.0, 1e-10), (&top, 180.0, 1e-7)]
+    {
+        let scene = Scene::from_json(&scene.to_string()).unwrap().duration(duration).tolerance(tolerance);
+        let judged = judge(&scene).unwrap();
+        let good = judged.iter().filter(|one| one.is_good()).count();
+        assert!(
+            judged.len() >= 15 && 100 * good >= 95 * judged.len() && !judged.iter().any(Judged::is_bad),
+            "{}, {tolerance:e}: {good} of {judged:?}",
+            scene.name
+        );
+    }
+}
+
 /// The same of a pendulum on a spring, whose potential counts.
 #[test]
 fn the_energy_of_springs_tells_of_errors_too() {

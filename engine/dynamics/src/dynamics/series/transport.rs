@@ -35,8 +35,6 @@ const DIVERGES: f64 = 0.1;
 /// The series of an error are long enough where two successive terms are below this part of what the last step added to it. What is
 /// left out adds up like that: more would be another error, which grows with the time as that does.
 const UNFINISHED: f64 = 0.1;
-/// Part of the error itself that is below that at any rate.
-const NEGLIGIBLE: f64 = 1e-4;
 /// The fewest terms.
 const FEWEST: usize = 3;
 
@@ -54,8 +52,11 @@ pub(super) struct Transport<const L: usize, B: Bodies<L>> {
     terms: Vec<f64>,
     /// What that is at the end of the step.
     arrived: Vec<[B::Natural; 2]>,
-    /// The highest order of these.
+    /// The highest order of these, and whether more would be asked for than the step has.
     order: usize,
+    unfinished: bool,
+    /// If so, half the accelerations of the motion without its error at the end of the step.
+    beside: Vec<B::Natural>,
     /// What the last step adds to that at its end, before it is moved onto the constraints: states within the step are not.
     added: Vec<[B::Natural; 2]>,
     /// What that is worth, m.
@@ -151,6 +152,8 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             terms: vec![0.0; series.stride],
             arrived: nothing.clone(),
             order: 0,
+            unfinished: false,
+            beside: vec![B::zero(); count],
             added: nothing,
             worth: 0.0,
             step: (0, 0.0),
@@ -213,6 +216,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         if grows && before > DISTURBANCE * length && (self.last_terms() > DIVERGES * after || after.is_nan())
         {
             self.carry_part(series, DISTURBANCE * length / before, length);
+            self.unfinished = false;
         }
     }
 
@@ -254,11 +258,11 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         let Self { twin, carried, arrived, terms, order, .. } = self;
         let fewest = order.saturating_sub(1).max(FEWEST).min(most);
         let orders = [fewest, most];
-        let enough = [UNFINISHED * self.worth, NEGLIGIBLE];
+        let enough = UNFINISHED * self.worth;
         let differ =
             Differ::<L, B> { of: &series.q, twin, orders, s, h, length, enough, carried, terms, arrived };
         let after;
-        (*order, after) = Arch::new().dispatch(differ);
+        (*order, after, self.unfinished) = Arch::new().dispatch(differ);
         after
     }
 
@@ -266,12 +270,16 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
     /// p, the accelerations there are off by p (p + 1) / h² times the error of the positions. At a breakpoint of a prescribed function
     /// accelerations jump: those before it tell of the step.
     fn add_local(&mut self, series: &mut Series<L, B>, length: f64, at_break: bool) {
-        self.share(series);
         let twin = &mut self.twin;
         twin.set_time(if at_break { series.time.next_down() } else { series.time });
         for (own, angle) in twin.angles.list.iter_mut().zip(&series.angles.list) {
             own.state.reference = angle.state.reference;
         }
+        if self.unfinished {
+            self.evaluate_beside(series);
+        }
+        self.share(series);
+        let twin = &mut self.twin;
         twin.state.copy_from_slice(&series.state);
         let solves = twin.counters.solves;
         twin.evaluate_here();
@@ -283,6 +291,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             twin,
             step,
             arrived,
+            beside: self.unfinished.then_some([&self.carried[..], &self.beside]),
             added: &mut self.added,
             error: &mut self.error,
         };
@@ -293,6 +302,20 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         }
         self.project(series, size.after(step.1, length), length);
         self.share(series);
+    }
+
+    /// Accelerations of the motion without its error at the end of the step: what its series miss there tells of all terms that are left
+    /// out, those of the error with them.
+    fn evaluate_beside(&mut self, series: &Series<L, B>) {
+        let Self { twin, arrived, beside, .. } = self;
+        for ((state, here), arrived) in twin.state.iter_mut().zip(&series.state).zip(&*arrived) {
+            *state = moved_both::<L, B>(here, -1.0, arrived);
+        }
+        twin.linearize();
+        twin.evaluate_here();
+        for (beside, q) in beside.iter_mut().zip(twin.q.chunks(twin.stride)) {
+            *beside = q[2];
+        }
     }
 
     /// Lends the twin what belongs to the end of the step, or gives it back.

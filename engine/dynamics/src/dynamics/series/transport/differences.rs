@@ -69,7 +69,8 @@ impl Size {
 }
 
 /// The s-th part of the difference of a series and that of its twin, which is expanded as far as the difference asks for, to be compiled
-/// for each set of vector instructions. The order that was reached, and what the difference is worth after h, are returned.
+/// for each set of vector instructions. The order that was reached, what the difference is worth after h, and whether it asks for more
+/// terms than there are, are returned.
 pub(super) struct Differ<'a, const L: usize, B: Bodies<L>> {
     pub of: &'a [B::Natural],
     pub twin: &'a mut Series<L, B>,
@@ -78,8 +79,8 @@ pub(super) struct Differ<'a, const L: usize, B: Bodies<L>> {
     pub s: f64,
     pub h: f64,
     pub length: f64,
-    /// What two successive terms are the last below: so much, or so large a part of all.
-    pub enough: [f64; 2],
+    /// What two successive terms are the last below, m.
+    pub enough: f64,
     /// The difference, its terms' sizes, and its value and rate after h.
     pub carried: &'a mut [B::Natural],
     pub terms: &'a mut [f64],
@@ -87,10 +88,10 @@ pub(super) struct Differ<'a, const L: usize, B: Bodies<L>> {
 }
 
 impl<const L: usize, B: Bodies<L>> WithSimd for Differ<'_, L, B> {
-    type Output = (usize, f64);
+    type Output = (usize, f64, bool);
 
     #[inline(always)]
-    fn with_simd<S: Simd>(mut self, simd: S) -> (usize, f64) {
+    fn with_simd<S: Simd>(mut self, simd: S) -> (usize, f64, bool) {
         let ([fewest, most], h) = (self.orders, self.h);
         self.twin.begin_expansion();
         let mut power = 1.0;
@@ -101,11 +102,12 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Differ<'_, L, B> {
             }
             self.add(k, power);
             let last = power * larger(h * self.terms[k], self.terms[k.saturating_sub(1)]);
-            if k == most || k >= fewest && (last <= self.enough[0] || last <= self.enough[1] * self.after()) {
-                return (k, self.after());
+            let finished = last <= self.enough;
+            if k == most || k >= fewest && finished {
+                return (k, self.after(), !finished);
             }
         }
-        (most, f64::NAN)
+        (most, f64::NAN, false)
     }
 }
 
@@ -149,6 +151,21 @@ impl<const L: usize, B: Bodies<L>> Differ<'_, L, B> {
     }
 }
 
+/// The second derivative of a polynomial.
+#[inline(always)]
+fn curvature<const L: usize, B: Bodies<L>>(coefficients: &[B::Natural], tau: f64) -> B::Natural {
+    let mut second = B::zero();
+    for (k, c) in coefficients.iter().enumerate().skip(2).rev() {
+        let factor = (k * (k - 1)) as f64;
+        for (second, c) in B::lanes_mut(&mut second).iter_mut().zip(B::lanes(c)) {
+            for l in 0..L {
+                second[l] = fma(tau, second[l], factor * c[l]);
+            }
+        }
+    }
+    second
+}
+
 /// What a step adds to an error and what that is in all, at its end, to be compiled likewise: eq. (11.11), from the second derivative
 /// of the series there, and that of the equations, which the twin has. The sizes of both, the whole first, are
 /// returned.
@@ -158,6 +175,8 @@ pub(super) struct Missed<'a, const L: usize, B: Bodies<L>> {
     /// Its order and size.
     pub step: (usize, f64),
     pub arrived: &'a [[B::Natural; 2]],
+    /// Where the step has too few terms for the error: those of the error, and half the accelerations of the motion without it.
+    pub beside: Option<[&'a [B::Natural]; 2]>,
     pub added: &'a mut [[B::Natural; 2]],
     pub error: &'a mut [[B::Natural; 2]],
 }
@@ -167,27 +186,24 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Missed<'_, L, B> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> [Size; 2] {
-        let Self { series, twin, step: (order, h), arrived, added, error } = self;
+        let Self { series, twin, step: (order, h), arrived, beside, added, error } = self;
         let p = order as f64;
         let by = [h * h / (p * (p + 1.0)), h / p];
         let mut sizes = [Size::default(); 2];
         for (b, added) in added.iter_mut().enumerate() {
             let first = b * twin.stride;
-            let mut second = B::zero();
-            for k in (2..=order).rev() {
-                let factor = (k * (k - 1)) as f64;
-                let c = B::lanes(&series[first + k]);
-                for (second, c) in B::lanes_mut(&mut second).iter_mut().zip(c) {
-                    for l in 0..L {
-                        second[l] = fma(h, second[l], factor * c[l]);
-                    }
-                }
-            }
+            let terms = first..=first + order;
+            let second = curvature::<L, B>(&series[terms.clone()], h);
             let missed = moved::<L, B>(&second, -2.0, &twin.q[first + 2]);
             *added = by.map(|by| moved::<L, B>(&B::zero(), by, &missed));
+            sizes[1].raise::<L, B>(added);
+            if let Some([carried, half]) = beside {
+                let second = moved::<L, B>(&second, -1.0, &curvature::<L, B>(&carried[terms], h));
+                let missed = moved::<L, B>(&second, -2.0, &half[b]);
+                *added = by.map(|by| moved::<L, B>(&B::zero(), by, &missed));
+            }
             error[b] = moved_both::<L, B>(&arrived[b], 1.0, added);
             sizes[0].raise::<L, B>(&error[b]);
-            sizes[1].raise::<L, B>(added);
         }
         [sizes[0].proven::<L, B>(error), sizes[1]]
     }
