@@ -54,7 +54,7 @@ struct Beside {
     block: usize,
     columns: usize,
     /// First number of its columns in the order of elimination.
-    place: usize,
+    place: u32,
     offset: usize,
 }
 
@@ -66,6 +66,12 @@ struct Update {
     right: usize,
     rows: usize,
     columns: usize,
+}
+
+/// A place among the numbers of a solution, of which there are far fewer than 2³².
+#[allow(clippy::cast_possible_truncation, reason = "no factor has so many numbers")]
+const fn narrow(place: usize) -> u32 {
+    place as u32
 }
 
 /// Numbers from one row of a block to the next: rows of three fill a vector of four, whose last is zero.
@@ -185,7 +191,12 @@ impl BlockCholesky {
             let mut columns: Vec<usize> = neighbours.clone();
             columns.sort_by_key(|&i| self.rank[i]);
             for i in columns {
-                self.beside.push(Beside { block: i, columns: sizes[i], place: first[i], offset: next });
+                self.beside.push(Beside {
+                    block: i,
+                    columns: sizes[i],
+                    place: narrow(first[i]),
+                    offset: next,
+                });
                 next += size * stride(sizes[i]);
             }
             let beside = beside..self.beside.len();

@@ -2,7 +2,7 @@
 
 use super::numeric::rows;
 use super::runs::{Alike, Run, by_kind, by_size};
-use super::{BlockCholesky, Pivot, kernel, stride, wide};
+use super::{BlockCholesky, Pivot, kernel, narrow, stride, wide};
 use pulp::{Arch, Simd, WithSimd};
 use std::ops::Range;
 
@@ -20,10 +20,37 @@ impl WithSimd for Solve<'_> {
     }
 }
 
+/// W numbers from a place on. Their end is found without overflow, so that one comparison tells whether they are there.
+#[inline(always)]
+fn numbers<const W: usize>(x: &[f64], at: u32) -> Option<&[f64; W]> {
+    let at = at as usize;
+    x.get(at..at + W)?.first_chunk()
+}
+
+#[inline(always)]
+fn numbers_mut<const W: usize>(x: &mut [f64], at: u32) -> Option<&mut [f64; W]> {
+    let at = at as usize;
+    x.get_mut(at..at + W)?.first_chunk_mut()
+}
+
 impl BlockCholesky {
     /// Replaces b by the solution of S x = b, whose numbers stand at [`Self::places`].
     pub fn solve_in_place(&self, x: &mut [f64]) {
         Arch::new().dispatch(Solve { matrix: self, x });
+    }
+
+    /// The same from within what is compiled for vectors: a ball on its own, as a body on one joint has it, takes no sweeps.
+    #[inline(always)]
+    pub fn solve_within<S: Simd>(&self, _: S, x: &mut [f64]) {
+        if let [Run { pivots, alike: Some(Alike { size: 3, beside: 0 }) }] = &*self.runs
+            && let [pivot] = &self.pivots[pivots.clone()]
+            && let Some(inverse) = rows::<3, { stride(3) }>(&self.factors[pivot.diagonal..])
+            && let Some(x) = x[pivot.place..].first_chunk_mut()
+        {
+            *x = kernel::multiply(inverse, x);
+            return;
+        }
+        self.solve_in_place(x);
     }
 
     /// The same for numbers in the order of scalar rows.
@@ -88,16 +115,16 @@ impl BlockCholesky {
         let (false, Some(first)) = (beside == 0, self.pivots[pivots.clone()].first()) else { return };
         let blocks = self.factors[first.diagonal..].chunks_exact((1 + beside) * N * W);
         let others = self.beside[first.beside.start..].chunks_exact(beside);
-        let mut at = first.place;
+        let mut at = narrow(first.place);
         for (blocks, others) in blocks.zip(others).take(pivots.len()) {
             let (_, blocks) = blocks.split_at(N * W);
-            let Some(&y) = x[at..].first_chunk::<W>() else { return };
+            let Some(&y) = numbers::<W>(x, at) else { return };
             for (block, other) in blocks.as_chunks::<W>().0.as_chunks::<N>().0.iter().zip(others) {
-                if let Some(target) = x[other.place..].first_chunk_mut::<W>() {
+                if let Some(target) = numbers_mut::<W>(x, other.place) {
                     kernel::subtract(block, &y, target);
                 }
             }
-            at += W;
+            at += const { narrow(W) };
         }
     }
 
@@ -113,21 +140,21 @@ impl BlockCholesky {
         let blocks = self.factors[at.clone()].chunks_exact((1 + beside) * N * W);
         let turned = self.values[at].chunks_exact((1 + beside) * N * W);
         let mut others = &self.beside[first.beside.start..first.beside.start + pivots.len() * beside];
-        let mut at = first.place + pivots.len() * W;
+        let mut at = narrow(first.place + pivots.len() * W);
         for (blocks, turned) in blocks.zip(turned).rev() {
-            at -= W;
+            at -= const { narrow(W) };
             let (rest, own) = others.split_at(others.len() - beside);
             others = rest;
             let Some(inverse) = blocks.as_chunks::<W>().0.first_chunk::<N>() else { return };
-            let Some(y) = x[at..].first_chunk::<W>() else { return };
+            let Some(y) = numbers::<W>(x, at) else { return };
             let mut solution = kernel::multiply(inverse, y);
             let (_, turned) = turned.split_at(N * W);
             for (block, other) in turned.as_chunks::<W>().0.as_chunks::<N>().0.iter().zip(own) {
-                if let Some(source) = x[other.place..].first_chunk::<W>() {
+                if let Some(source) = numbers::<W>(x, other.place) {
                     kernel::subtract(block, source, &mut solution);
                 }
             }
-            if let Some(out) = x[at..].first_chunk_mut::<W>() {
+            if let Some(out) = numbers_mut::<W>(x, at) {
                 *out = solution;
             }
         }
@@ -149,7 +176,7 @@ impl BlockCholesky {
         by_size!(pivot.size, N, W => self.forward_one::<N, W>(pivot, x), {
             let (before, behind) = x.split_at_mut(pivot.place + pivot.size);
             for other in &self.beside[pivot.beside.clone()] {
-                let target = &mut behind[other.place - pivot.place - pivot.size..];
+                let target = &mut behind[other.place as usize - pivot.place - pivot.size..];
                 wide::forward(&before[pivot.place..], &self.factors[other.offset..], other.columns, target);
             }
         });
@@ -159,7 +186,7 @@ impl BlockCholesky {
     fn forward_one<const N: usize, const W: usize>(&self, pivot: &Pivot, x: &mut [f64]) {
         let Some(&y) = x[pivot.place..].first_chunk::<W>() else { return };
         for other in &self.beside[pivot.beside.clone()] {
-            let (block, target) = (&self.factors[other.offset..], &mut x[other.place..]);
+            let (block, target) = (&self.factors[other.offset..], &mut x[other.place as usize..]);
             if other.columns == N
                 && let (Some(block), Some(target)) = (rows::<N, W>(block), target.first_chunk_mut::<W>())
             {
@@ -190,7 +217,7 @@ impl BlockCholesky {
         let (Some(inverse), Some(y)) = (inverse, x[pivot.place..].first_chunk::<W>()) else { return };
         let mut solution = kernel::multiply(inverse, y);
         for other in &self.beside[pivot.beside.clone()] {
-            let source = &x[other.place..];
+            let source = &x[other.place as usize..];
             if other.columns == N
                 && let (Some(block), Some(source)) =
                     (rows::<N, W>(&self.values[other.offset..]), source.first_chunk::<W>())
@@ -223,7 +250,7 @@ impl BlockCholesky {
             &mut solution,
         );
         for other in &self.beside[pivot.beside.clone()] {
-            let source = &x[other.place..other.place + other.columns];
+            let source = &x[other.place as usize..][..other.columns];
             wide::backward(&self.factors[other.offset..], source, &mut solution);
         }
         x[own].copy_from_slice(&solution);
