@@ -59,12 +59,15 @@ impl Search<'_> {
                 0 | 1 => &*self.samples[place].angles,
                 _ => &*samples[place - 2].angles,
             };
-            let open = |part: &&[(f64, usize)]| {
-                let turned = (part[1].0 - part[0].0) * self.step.pace;
-                is_open(angles(part[0].1), angles(part[1].1), &self.history.rate_bounds, turned)
+            let is_open = |[start, end]: &[(f64, usize); 2]| {
+                let turned = (end.0 - start.0) * self.step.pace;
+                is_open(angles(start.1), angles(end.1), &self.history.rate_bounds, turned)
             };
-            let parts = known.windows(2).filter(open);
-            let count = parts.clone().count();
+            let (mut parts, mut count) = ([[(0.0, 0); 2]; MOST + 1], 0);
+            for part in known.array_windows().filter(|part| is_open(part)) {
+                parts[count] = *part;
+                count += 1;
+            }
             if count == 0 {
                 return true;
             }
@@ -73,7 +76,7 @@ impl Search<'_> {
                 return false;
             }
             let mut times = [0.0; MOST];
-            divide(parts, count, &mut times[..more]);
+            divide(&parts[..count], &mut times[..more]);
             for times in times[..more].as_chunks::<AT_ONCE>().0 {
                 let Some(products) = self.track.pivot_products_at(*times) else { return false };
                 self.examiner.count += AT_ONCE as u64;
@@ -94,15 +97,15 @@ impl Search<'_> {
     }
 }
 
-/// Spreads times over parts of a step, so many, evenly.
-fn divide<'a>(parts: impl Iterator<Item = &'a [(f64, usize)]>, count: usize, times: &mut [f64]) {
-    let all = times.len();
+/// Spreads times over parts of a step evenly.
+fn divide(parts: &[[(f64, usize); 2]], times: &mut [f64]) {
+    let (all, count) = (times.len(), parts.len());
     let mut left = times.iter_mut();
-    for (k, part) in parts.enumerate() {
+    for (k, [start, end]) in parts.iter().enumerate() {
         // The first ones get what cannot be divided.
         let own = (all + count - 1 - k) / count;
         for (i, time) in left.by_ref().take(own).enumerate() {
-            *time = part[0].0 + (i + 1) as f64 / (own + 1) as f64 * (part[1].0 - part[0].0);
+            *time = start.0 + (i + 1) as f64 / (own + 1) as f64 * (end.0 - start.0);
         }
     }
 }
