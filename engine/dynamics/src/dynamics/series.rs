@@ -81,6 +81,8 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     angles: Angles,
     prescribed: Prescribed,
     loads: Loads,
+    /// Whether rows, angles, loads or what is prescribed ask for values of features in every order.
+    needs_values: bool,
     /// Time of the state, s.
     time: f64,
     /// Time of the next breakpoint of a prescribed function, s.
@@ -161,6 +163,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let angles = Angles::new(system, &place, &schur.factor, stride, turns);
         let prescribed = Prescribed::new(system, &place, &schur.factor, L, stride);
         let loads = Loads::new(system, &place, L, stride);
+        let needs_values = rows.curved() || !angles.is_empty() || !loads.is_empty() || !prescribed.is_empty();
         let exchanges = !system.is_conservative();
         Self {
             time: 0.0,
@@ -169,6 +172,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             angles,
             prescribed,
             loads,
+            needs_values,
             stride,
             state: vec![[B::at_rest(), B::zero()]; bundles.len()],
             sizes: vec![0.0; stride],

@@ -1,6 +1,7 @@
 //! The recurrence over the orders: from all coefficients before them to Q_(n+2) and λ_n.
 
 use super::lanes::times;
+use super::recurrence::real;
 use super::{Bodies, Series};
 use pulp::{Simd, WithSimd};
 use triad_linalg::{fma, larger, raise};
@@ -20,7 +21,11 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.begin_expansion();
         let order = order.min(self.stride - 1);
         let first = usize::from(self.recall_evaluation());
-        for n in first..=order.saturating_sub(2) {
+        if self.is_bare() && !self.regularizes_inertia {
+            self.expand_bare(simd, first, order);
+            return order;
+        }
+        for n in first..order.max(2) - 1 {
             self.solve_order(simd, n);
             if enough(self, n + 2) {
                 return n + 2;
@@ -50,10 +55,34 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.counters.evaluations += 1;
     }
 
+    /// The same where bodies have nothing to do with each other: all orders of one after those of another. Nothing has a breakpoint
+    /// there, so that no order is enough before the last.
+    #[inline(always)]
+    fn expand_bare<S: Simd>(&mut self, simd: S, first: usize, order: usize) {
+        let Self { bundles, q, p, sizes, stride, .. } = self;
+        sizes[first + 2..].fill(0.0);
+        for ((bundle, q), p) in
+            bundles.iter_mut().zip(q.chunks_exact_mut(*stride)).zip(p.chunks_exact_mut(*stride))
+        {
+            for n in first..order.max(2) - 1 {
+                let kappa = real((n + 1) * (n + 2));
+                bundle.clear_force();
+                if n == 0 {
+                    bundle.add_weight();
+                }
+                bundle.begin(simd, &q[0], &B::gram(simd, q, n + 2, kappa), B::moment(simd, q, p, n));
+                let mut largest = [sizes[n + 2], 0.0, 0.0, 0.0];
+                take_solution::<L, B>(bundle, 1.0 / kappa, &mut q[n + 2], &mut largest);
+                p[n] = bundle.director_forces(simd);
+                sizes[n + 2] = largest.into_iter().fold(0.0, larger);
+            }
+        }
+    }
+
     /// Q_(n+2) and λ_n from all coefficients before them — eq. (11.2).
     #[inline(always)]
     pub(super) fn solve_order<S: Simd>(&mut self, simd: S, n: usize) {
-        let kappa = ((n + 1) * (n + 2)) as f64;
+        let kappa = real((n + 1) * (n + 2));
         let over_kappa = 1.0 / kappa;
         let needs_values = self.needs_values();
         for bundle in &mut self.bundles {
@@ -74,18 +103,14 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             (rest, rest_of_p) = (others, others_of_p);
             bundle.begin(simd, &q[0], &B::gram(simd, q, n + 2, kappa), B::moment(simd, q, p, n));
         }
-        self.prepare_prescribed(n + 2, kappa);
+        if needs_values {
+            self.prepare_prescribed(n + 2, kappa);
+        }
         self.solve(simd, n);
         let mut largest = [0.0; 4];
         for (b, bundle) in self.bundles.iter().enumerate() {
             let at = b * self.stride + n;
-            // Four at a time, whatever they belong to: all kinds of bodies have a multiple of that.
-            let next = B::lanes_mut(&mut self.q[at + 2]).as_flattened_mut().as_chunks_mut().0;
-            let solution = B::lanes(bundle.solution()).as_flattened().as_chunks().0;
-            for (q, a) in next.iter_mut().zip(solution) {
-                *q = times(a, &[over_kappa; 4]);
-                raise(&mut largest, q);
-            }
+            take_solution::<L, B>(bundle, over_kappa, &mut self.q[at + 2], &mut largest);
             self.p[at] = bundle.director_forces(simd);
         }
         self.sizes[n + 2] = largest.into_iter().fold(0.0, larger);
@@ -107,7 +132,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Whether values of features are needed in every order.
     #[inline(always)]
     pub(super) fn needs_values(&self) -> bool {
-        self.rows.curved() || !self.angles.is_empty() || !self.loads.is_empty() || !self.prescribed.is_empty()
+        self.needs_values
     }
 
     /// Whether no row and no load asks for any feature: nothing but bodies on pivots of the ground, and free ones.
@@ -137,19 +162,19 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         if self.schur.factor.numbers() == 0 && !self.regularizes_inertia {
             return;
         }
-        let others = self.points.has_others();
-        if others {
+        if self.points.has_others() {
             self.set_ground(false);
         }
         let (mut first, mut last) = (0.0, f64::INFINITY);
-        for pass in 0..=refinements {
+        let mut pass = 0;
+        loop {
             if pass > 0 && self.regularizes_inertia {
                 for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
                     bundle.remove_regularization(simd, &state[0]);
                 }
             }
             self.set_residual(simd);
-            self.schur.factor.solve_in_place(&mut self.correction);
+            self.schur.factor.solve_within(simd, &mut self.correction);
             self.counters.solves += 1;
             let lambda = &mut self.lambda[n * rows..(n + 1) * rows];
             if pass == 0 {
@@ -159,20 +184,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                     *lambda += correction;
                 }
             }
-            if others {
-                self.forces.fill([[0.0; L]; 3]);
-                self.rows.add_forces(B::DIRECTIONS, &self.correction, &mut self.forces);
-                self.angles.add_forces(&self.correction, &mut self.forces);
-                self.prescribed.add_forces(n, &self.forces);
-            }
-            for (b, (bundle, state)) in self.bundles.iter_mut().zip(&self.state).enumerate() {
-                let mut force = B::zero();
-                self.points.add_forces::<S, B>(simd, b, &self.correction, &mut force);
-                for &slot in self.points.others(b) {
-                    B::pull_back(&self.slots[slot], &self.forces[slot], &mut force);
-                }
-                bundle.apply(simd, &state[0], &force);
-            }
+            self.apply_multipliers(simd, n);
             if self.regularizes_inertia && !self.regularized {
                 // Corrections shrink by the same factor each time: the next one would be size²/last.
                 let size = self.correction.iter().fold(0.0f64, |most, x| larger(most, x.abs()));
@@ -183,21 +195,50 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 }
                 last = size;
             }
+            if pass == refinements {
+                break;
+            }
+            pass += 1;
+        }
+    }
+
+    /// Adds to the bodies' solutions what the multipliers at hand, of order n, do.
+    #[inline(always)]
+    fn apply_multipliers<S: Simd>(&mut self, simd: S, n: usize) {
+        let others = self.points.has_others();
+        if others {
+            self.forces.fill([[0.0; L]; 3]);
+            self.rows.add_forces(B::DIRECTIONS, &self.correction, &mut self.forces);
+            self.angles.add_forces(&self.correction, &mut self.forces);
+            self.prescribed.add_forces(n, &self.forces);
+        }
+        for (b, (bundle, state)) in self.bundles.iter_mut().zip(&self.state).enumerate() {
+            let mut force = B::zero();
+            self.points.add_forces::<S, B>(simd, b, &self.correction, &mut force);
+            if others {
+                for &slot in self.points.others(b) {
+                    B::pull_back(&self.slots[slot], &self.forces[slot], &mut force);
+                }
+            }
+            bundle.apply(simd, &state[0], &force);
         }
     }
 
     /// What is left of all rows, given the bodies' part of the unknown.
     #[inline(always)]
     fn set_residual<S: Simd>(&mut self, simd: S) {
+        let others = self.points.has_others();
         self.correction.copy_from_slice(&self.rows.extra);
         for (b, bundle) in self.bundles.iter().enumerate() {
             let x = bundle.solution();
             self.points.add_residual::<S, B>(simd, b, x, &mut self.correction);
-            for &slot in self.points.others(b) {
-                self.values[slot] = B::value(&self.slots[slot], x);
+            if others {
+                for &slot in self.points.others(b) {
+                    self.values[slot] = B::value(&self.slots[slot], x);
+                }
             }
         }
-        if self.points.has_others() {
+        if others {
             self.prescribed.add_known(1.0, &mut self.values);
             self.rows.residual(B::DIRECTIONS, &self.values, &mut self.correction);
             self.angles.residual(&self.values, &self.rows.extra, &mut self.correction);
@@ -211,6 +252,23 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         for (b, state) in self.state.iter_mut().enumerate() {
             *state = horner::<L, B>(&self.q[b * self.stride..=b * self.stride + order], h);
         }
+    }
+}
+
+/// Takes over what a bundle has found, times 1/κ, as its next coefficient, and raises the largest numbers to those in it: four at a
+/// time, whatever they belong to, as all kinds of bodies have a multiple of that.
+#[inline(always)]
+fn take_solution<const L: usize, B: Bodies<L>>(
+    bundle: &B,
+    over_kappa: f64,
+    next: &mut B::Natural,
+    largest: &mut [f64; 4],
+) {
+    let next = B::lanes_mut(next).as_flattened_mut().as_chunks_mut().0;
+    let solution = B::lanes(bundle.solution()).as_flattened().as_chunks().0;
+    for (q, a) in next.iter_mut().zip(solution) {
+        *q = times(a, &[over_kappa; 4]);
+        raise(largest, q);
     }
 }
 

@@ -3,6 +3,32 @@
 use nalgebra::Vector3;
 use triad_linalg::fma;
 
+/// Does something with each pair of one list, from its beginning, and another that is as long, from its end: two pairs at a time, as
+/// moving along both lists takes as long as many a pair. No closure: those would not be compiled for the vectors in use.
+macro_rules! for_folded {
+    ($heads:expr, $tails:expr, $a:pat, $b:pat => $does:block) => {
+        let ((heads, last), (first, tails)) = ($heads.as_chunks::<2>(), $tails.as_rchunks::<2>());
+        for ([a, next], [before, b]) in heads.iter().zip(tails.iter().rev()) {
+            let ($a, $b) = (a, b);
+            $does
+            let ($a, $b) = (next, before);
+            $does
+        }
+        if let ([$a], [$b]) = (last, first) {
+            $does
+        }
+    };
+}
+
+pub(super) use for_folded;
+
+/// An order as a number: of fewer than 2³² one instruction makes it.
+#[inline(always)]
+#[allow(clippy::cast_possible_truncation, reason = "orders are small")]
+pub fn real(order: usize) -> f64 {
+    f64::from(order as u32)
+}
+
 /// Coefficients of a vector.
 pub type Vectors = Vec<Vector3<f64>>;
 

@@ -1,6 +1,7 @@
 //! One step of the series: expand, choose how far the terms reach, move there, and project.
 
 use super::lanes::largest;
+use super::recurrence::real;
 use super::{Bodies, Series};
 use crate::newton::{Ending, Projectable, Projected, project_positions, project_velocities, rules};
 use pulp::{Arch, Simd, WithSimd};
@@ -249,32 +250,27 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// The largest terms of positions and velocities that a tolerance allows.
     #[inline(always)]
     fn allowance(&self, tolerance: f64) -> [f64; 2] {
-        let size = |which: usize| {
-            let sizes = self.state.iter().map(|state| largest(B::lanes(&state[which])));
-            sizes.fold(0.0, larger)
-        };
-        [0, 1].map(|which| tolerance * (1.0 + size(which)))
+        // No closures: they would not be compiled for the vectors in use.
+        let mut sizes = [0.0, 0.0];
+        for [position, velocity] in &self.state {
+            sizes[0] = larger(sizes[0], largest(B::lanes(position)));
+            sizes[1] = larger(sizes[1], largest(B::lanes(velocity)));
+        }
+        [tolerance * (1.0 + sizes[0]), tolerance * (1.0 + sizes[1])]
     }
 
-    /// What the tolerance allows of the position, per hᵏ, and of the velocity, per hᵏ⁻¹, by the term of order k.
+    /// Whether the term of order k allows only steps shorter than h, of which hᵏ⁻¹ is given: found without roots and divisions.
     #[inline(always)]
-    fn room(&self, k: usize, [position, velocity]: [f64; 2]) -> [f64; 2] {
-        let term = self.sizes[k];
-        [position / term, velocity / (k as f64 * term)]
-    }
-
-    /// Whether the term of order k allows only steps shorter than h: found without roots.
-    #[inline(always)]
-    fn falls_short(&self, k: usize, allowance: [f64; 2], h: f64) -> bool {
-        let [by_position, by_velocity] = self.room(k, allowance);
-        let power = (1..k).fold(1.0, |power, _| power * h);
-        by_velocity < power || by_position < power * h
+    fn falls_short(&self, k: usize, [position, velocity]: [f64; 2], h: f64, power: f64) -> bool {
+        let most = self.sizes[k] * power;
+        velocity < real(k) * most || position < h * most
     }
 
     /// The step that the term of order k allows.
     #[inline(always)]
-    fn reached(&self, k: usize, allowance: [f64; 2]) -> f64 {
-        let [by_position, by_velocity] = self.room(k, allowance);
+    fn reached(&self, k: usize, [position, velocity]: [f64; 2]) -> f64 {
+        let term = self.sizes[k];
+        let [by_position, by_velocity] = [position / term, velocity / (k as f64 * term)];
         // The smaller of two roots.
         libm::exp((libm::log(by_position) / k as f64).min(libm::log(by_velocity) / (k - 1) as f64))
     }
@@ -290,17 +286,22 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         if cut < order {
             return order - 1;
         }
-        let short = |factor: f64| {
-            let least = h / (1.0 + factor / (order - 3) as f64);
-            self.falls_short(order - 3, allowance, least) || self.falls_short(order - 4, allowance, least)
-        };
-        if short(ORDER_PAYS) {
+        if self.is_short(order - 3, allowance, h, ORDER_PAYS) {
             order + 2
-        } else if short(ORDER_HOLDS) {
+        } else if self.is_short(order - 3, allowance, h, ORDER_HOLDS) {
             order
         } else {
             order - 1
         }
+    }
+
+    /// Whether the terms of order k and k − 1 allow only steps shorter than h divided by 1 + `factor`/k.
+    #[inline(always)]
+    fn is_short(&self, k: usize, allowance: [f64; 2], h: f64, factor: f64) -> bool {
+        let least = h / (1.0 + factor / k as f64);
+        let power = power(least, k - 2);
+        self.falls_short(k, allowance, least, power * least)
+            || self.falls_short(k - 1, allowance, least, power)
     }
 
     /// The step and the order at which the series is cut: the longest step that two successive terms of positions and
@@ -309,16 +310,15 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     fn reach(&self, order: usize, allowance: [f64; 2]) -> (f64, usize) {
         let mut best = (0.0, order);
         let mut next = self.reached(order, allowance);
-        // h to the power of k − 2 of the best h, so that most terms are seen to fall short without their roots.
+        // The best h to the power of k − 1, so that most terms are seen to fall short without their roots.
         let mut power = 0.0;
-        for k in (3..=order).rev() {
-            let [by_position, by_velocity] = self.room(k - 1, allowance);
-            let short = by_velocity < power || by_position < power * best.0;
-            let previous = if short { 0.0 } else { self.reached(k - 1, allowance) };
+        for k in (2..order).rev() {
+            let short = self.falls_short(k, allowance, best.0, power);
+            let previous = if short { 0.0 } else { self.reached(k, allowance) };
             let h = previous.min(next);
             if h > best.0 {
-                best = (h, k);
-                power = (3..k).fold(1.0, |power, _| power * h);
+                best = (h, k + 1);
+                power = self::power(h, k - 2);
             } else if power.is_finite() && best.0 > 0.0 {
                 power /= best.0;
             } else {
@@ -328,6 +328,20 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
         best
     }
+}
+
+/// xⁿ, by squares.
+#[inline(always)]
+fn power(x: f64, n: usize) -> f64 {
+    let (mut all, mut square, mut left) = (1.0, x, n);
+    while left > 0 {
+        if left % 2 == 1 {
+            all *= square;
+        }
+        square *= square;
+        left /= 2;
+    }
+    all
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 use crate::dynamics::series::lanes::{
     Lane, LaneVector, Natural, difference_whole, plus_whole, rows_of_lanes, sum_whole, times_whole,
 };
+use crate::dynamics::series::recurrence::for_folded;
 use pulp::Simd;
 
 /// The components of a vector, and zero.
@@ -67,13 +68,13 @@ pub fn gram<S: Simd>(simd: S, q: &[[Components; 4]], n: usize, kappa: f64) -> [C
     let mut sums = [[ZERO; 3]; 3];
     let half = (n - 1) / 2;
     let (heads, tails) = (&q[1..=half], &q[n - half..n]);
-    for (e, f) in heads.iter().zip(tails.iter().rev()) {
+    for_folded!(heads, tails, e, f => {
         for k in 0..3 {
             for l in 0..3 {
                 sums[k][l] = plus_whole(simd, &e[1 + k], &f[1 + l], &sums[k][l]);
             }
         }
-    }
+    });
     let [[uu, uv, uw], [vu, vv, vw], [wu, wv, ww]] = &sums;
     let mut all = [
         [double(simd, uu), double(simd, vv), double(simd, ww), sum_whole(simd, uv, vu)],
@@ -102,12 +103,12 @@ pub fn gram<S: Simd>(simd: S, q: &[[Components; 4]], n: usize, kappa: f64) -> [C
 pub fn moment<S: Simd>(simd: S, q: &[[Components; 4]], p: &[[Components; 3]], n: usize) -> Components {
     // For each director on its own, so that no sum waits for another.
     let (mut ahead, mut behind) = ([ZERO; 3], [ZERO; 3]);
-    for (e, p) in q[1..=n].iter().zip(p[..n].iter().rev()) {
+    for_folded!(q[1..=n], p[..n], e, p => {
         for k in 0..3 {
             ahead[k] = plus_whole(simd, &e[1 + k], &turned(p[k]), &ahead[k]);
             behind[k] = plus_whole(simd, &turned(e[1 + k]), &p[k], &behind[k]);
         }
-    }
+    });
     let mut all = ZERO;
     for k in 0..3 {
         all = sum_whole(simd, &all, &difference_whole(simd, &ahead[k], &behind[k]));

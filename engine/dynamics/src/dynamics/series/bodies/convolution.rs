@@ -1,6 +1,7 @@
 //! What bodies in space know of an order from all orders before it: sums over products of coefficients.
 
 use crate::dynamics::series::lanes::{Lane, LaneVector, Natural, add_cross, negative, plus, sum};
+use crate::dynamics::series::recurrence::for_folded;
 
 /// −Σ e_k(i) · e_l(n−i) over 0 < i < n for the six rigid-body rows, from the series q.
 #[inline(always)]
@@ -42,9 +43,9 @@ fn gram_of<const L: usize, const W: usize>(q: &[Natural<L>], n: usize, at: usize
     let mut sums = Products::default();
     let half = (n - 1) / 2;
     let (heads, tails) = (&q[1..=half], &q[n - half..n]);
-    for (a, b) in heads.iter().zip(tails.iter().rev()) {
+    for_folded!(heads, tails, a, b => {
         sums.add(a, b, at);
-    }
+    });
     let mut all = sums.symmetric();
     if n.is_multiple_of(2) {
         let mut square = Products::default();
@@ -122,12 +123,12 @@ fn moment_of<const L: usize, const W: usize>(
 ) -> LaneVector<W> {
     // For each director on its own, so that no sum waits for another.
     let mut sums = [[[0.0; W]; 3]; 3];
-    for (e, p) in q[1..=n].iter().zip(p[..n].iter().rev()) {
+    for_folded!(q[1..=n], p[..n], e, p => {
         for k in 0..3 {
             let [e, p] = [&e[1 + k], &p[k]].map(|vector| [0, 1, 2].map(|c| part(&vector[c], at)));
             add_cross(&mut sums[k], &e, &p);
         }
-    }
+    });
     let [mut all, second, third] = sums;
     for c in 0..3 {
         all[c] = sum(&all[c], &sum(&second[c], &third[c]));

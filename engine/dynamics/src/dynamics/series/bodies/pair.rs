@@ -1,6 +1,7 @@
 //! Vectors in the plane, L side by side, and the convolutions of planar bodies.
 
 use crate::dynamics::series::lanes::{Lane, less, plus, sum, times};
+use crate::dynamics::series::recurrence::for_folded;
 use triad_linalg::fma;
 
 /// A vector in the plane for each lane.
@@ -39,11 +40,10 @@ pub fn gram<const L: usize>(q: &[[Pair<L>; 2]], n: usize, kappa: f64) -> Lane<L>
     let mut sums = [[0.0; L]; 2];
     let half = (n - 1) / 2;
     let (heads, tails) = (&q[1..=half], &q[n - half..n]);
-    for ([_, a], [_, b]) in heads.iter().zip(tails.iter().rev()) {
-        for (c, all) in sums.iter_mut().enumerate() {
-            *all = plus(&a[c], &b[c], all);
-        }
-    }
+    for_folded!(heads, tails, [_, a], [_, b] => {
+        sums[0] = plus(&a[0], &b[0], &sums[0]);
+        sums[1] = plus(&a[1], &b[1], &sums[1]);
+    });
     let half = sum(&sums[0], &sums[1]);
     let mut all = sum(&half, &half);
     if n.is_multiple_of(2) {
@@ -57,9 +57,9 @@ pub fn gram<const L: usize>(q: &[[Pair<L>; 2]], n: usize, kappa: f64) -> Lane<L>
 #[inline(always)]
 pub fn moment<const L: usize>(q: &[[Pair<L>; 2]], p: &[Pair<L>], n: usize) -> Lane<L> {
     let mut sums = [[0.0; L]; 2];
-    for ([_, z], p) in q[1..=n].iter().zip(p[..n].iter().rev()) {
+    for_folded!(q[1..=n], p[..n], [_, z], p => {
         sums[0] = plus(&z[0], &p[1], &sums[0]);
         sums[1] = less(&z[1], &p[0], &sums[1]);
-    }
+    });
     sum(&sums[0], &sums[1])
 }

@@ -201,8 +201,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
 
     fn arm(local: &Vector3<f64>, q: &[Pair<L>; 2], lane: usize, order: usize) -> Vector3<f64> {
         let (a, b, [c, s]) = (local[0], local[1], [0, 1].map(|k| q[1][k][lane]));
-        let normal = if order == 0 { local[2] } else { 0.0 };
-        Vector3::new(a * c - b * s, a * s + b * c, normal)
+        Vector3::new(a * c - b * s, a * s + b * c, if order == 0 { local[2] } else { 0.0 })
     }
 
     fn center(q: &[Pair<L>; 2], lane: usize) -> Vector3<f64> {
@@ -320,23 +319,26 @@ impl<const L: usize> Bodies<L> for Planar<L> {
         }
         // The pivot stays: r̈ = −s̈ without ω̇, and the body's inertia against that has a moment about the pivot.
         let particular = turned(&self.pivot, &self.particular);
-        self.solution[0] = [0, 1].map(|c| each(|l| radial[c][l] - particular[c][l]));
-        let force: Pair<L> =
-            [0, 1].map(|c| each(|l| self.force[0][c][l] - self.mass[l] * self.solution[0][c][l]));
+        let mut force = self.force[0];
+        for c in 0..2 {
+            for l in 0..L {
+                self.solution[0][c][l] = radial[c][l] - particular[c][l];
+                force[c][l] -= self.mass[l] * self.solution[0][c][l];
+            }
+        }
         self.turn(z, &force, &moment);
     }
 
     #[inline(always)]
     fn apply<S: Simd>(&mut self, _: S, q: &[Pair<L>; 2], force: &[Pair<L>; 2]) {
-        let z = &q[1];
-        let moment = cross(z, &force[1]);
+        let moment = cross(&q[1], &force[1]);
         for c in 0..2 {
             for l in 0..L {
                 self.force[0][c][l] += force[0][c][l];
                 self.force[1][c][l] += force[1][c][l];
             }
         }
-        self.turn(z, &force[0], &moment);
+        self.turn(&q[1], &force[0], &moment);
     }
 
     #[inline(always)]
@@ -353,16 +355,16 @@ impl<const L: usize> Bodies<L> for Planar<L> {
 
     #[inline(always)]
     fn director_forces<S: Simd>(&self, _: S) -> Pair<L> {
-        let radial: Pair<L> =
-            [0, 1].map(|c| each(|l| self.mass[l] * self.solution[0][c][l] - self.force[0][c][l]));
-        // Along z and J z, as in [`Bodies::pull_back`].
-        let [a, b] = &self.pivot;
-        let pulled: Pair<L> = [
-            each(|l| a[l] * radial[0][l] + b[l] * radial[1][l]),
-            each(|l| a[l] * radial[1][l] - b[l] * radial[0][l]),
-        ];
-        [0, 1]
-            .map(|c| each(|l| self.force[1][c][l] + pulled[c][l] - self.inertia[l] * self.solution[1][c][l]))
+        let ([a, b], [at_rest, turning]) = (&self.pivot, &self.solution);
+        let mut p = self.force[1];
+        for l in 0..L {
+            let x = self.mass[l] * at_rest[0][l] - self.force[0][0][l];
+            let y = self.mass[l] * at_rest[1][l] - self.force[0][1][l];
+            // Along z and J z, as in [`Bodies::pull_back`].
+            p[0][l] = p[0][l] + (a[l] * x + b[l] * y) - self.inertia[l] * turning[0][l];
+            p[1][l] = p[1][l] + (a[l] * y - b[l] * x) - self.inertia[l] * turning[1][l];
+        }
+        p
     }
 
     #[inline(always)]
@@ -382,8 +384,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
 
     #[inline(always)]
     fn position_correction(&self, q: &[Pair<L>; 2]) -> Self::Rigid {
-        let [r, z] = q;
-        let arm = turned(&self.pivot, z);
+        let ([r, z], arm) = (q, turned(&self.pivot, &q[1]));
         let open: Pair<L> =
             [0, 1].map(|c| each(|l| self.pivoted[l] * (self.ground[c][l] - r[c][l] - arm[c][l])));
         (each(|l| 1.0 - (z[0][l] * z[0][l] + z[1][l] * z[1][l])), open)
@@ -391,8 +392,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
 
     #[inline(always)]
     fn velocity_correction(&self, q: &[Pair<L>; 2], q_dot: &[Pair<L>; 2]) -> Self::Rigid {
-        let (z, [r_rate, rate]) = (&q[1], q_dot);
-        let arm = turned(&self.pivot, rate);
+        let (z, [r_rate, rate], arm) = (&q[1], q_dot, turned(&self.pivot, &q_dot[1]));
         let open: Pair<L> = [0, 1].map(|c| each(|l| -self.pivoted[l] * (r_rate[c][l] + arm[c][l])));
         (each(|l| -2.0 * (z[0][l] * rate[0][l] + z[1][l] * rate[1][l])), open)
     }

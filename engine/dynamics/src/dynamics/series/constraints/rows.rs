@@ -4,6 +4,7 @@ use super::points::{NOWHERE, holds_points};
 use super::vectors::{held_products, index};
 use crate::dynamics::series::bodies::LanePlace;
 use crate::dynamics::series::lanes::{Lane, LaneVector, add_dot, add_scaled, dot, plus, scaled, sum};
+use crate::dynamics::series::recurrence::for_folded;
 use crate::system::System;
 use crate::system::feature::{Difference, Target};
 use crate::system::index::FeatureId;
@@ -187,11 +188,11 @@ impl<const L: usize> Rows<L> {
             let series = &self.factors[k * self.stride + 1..k * self.stride + n + 2];
             // For each component on its own, so that no sum waits for another.
             let mut sums = [[0.0; L]; 3];
-            for ([x, _], [_, y]) in series.iter().zip(series.iter().rev()) {
+            for_folded!(series, series, [x, _], [_, y] => {
                 for c in 0..3 {
                     sums[c] = plus(&x[c], &y[c], &sums[c]);
                 }
-            }
+            });
             let [first, second, third] = &sums;
             let all = sum(&sum(first, second), third);
             for (all, &row) in all.iter().zip(&product.rows) {
@@ -208,10 +209,10 @@ impl<const L: usize> Rows<L> {
             let lambda = &self.lambda[k * self.stride..k * self.stride + n];
             let mut sum = [[[0.0; L]; 3]; 2];
             let [on_x, on_y] = &mut sum;
-            for ([x, y], lambda) in series.iter().zip(lambda.iter().rev()) {
+            for_folded!(series, lambda, [x, y], lambda => {
                 add_scaled(on_x, lambda, y);
                 add_scaled(on_y, lambda, x);
-            }
+            });
             product.add_forces(&sum, forces);
         }
     }
