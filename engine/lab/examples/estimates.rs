@@ -8,7 +8,7 @@ use std::time::Instant;
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
-use triad_lab::estimates::{Judged, WAYS, in_the_way, judge, scenes};
+use triad_lab::estimates::{Judged, QUANTITIES, WAYS, in_the_way, judge_all, scenes};
 
 /// Tolerances that are judged where none are given.
 const TOLERANCES: [f64; 6] = [1e-3, 1e-4, 1e-6, 1e-8, 1e-9, 1e-10];
@@ -50,21 +50,25 @@ fn statistics(all: &[Scene], ways: &[&str], tolerances: &[f64]) {
             for scene in all {
                 let Some(scene) = in_the_way(scene, way) else { continue };
                 // Not every method can run every scene.
-                judged.extend(judge(&scene.tolerance(tolerance)).unwrap_or_default());
+                judged.extend(judge_all(&scene.tolerance(tolerance)).unwrap_or_default());
             }
-            let count = |which: fn(&Judged) -> bool| judged.iter().filter(|&one| which(one)).count();
-            let (good, bad) = (count(Judged::is_good), count(Judged::is_bad));
-            let share = 100.0 * good as f64 / judged.len().max(1) as f64;
-            println!(
-                "{way} {tolerance:.0e}: {share:.1} of 100 within three, {bad} of {} below a tenth",
-                judged.len()
-            );
-            judged.sort_by(|a, b| (a.estimate / a.error).total_cmp(&(b.estimate / b.error)));
-            let worst = judged.iter().take(bad.max(4)).chain(judged.iter().rev().take(2));
-            for Judged { scene, time, estimate, error, .. } in worst {
-                println!("    {scene} at {time:.3} s: {estimate:.1e} for {error:.1e}");
+            for quantity in QUANTITIES {
+                let of: Vec<&Judged> = judged.iter().filter(|one| one.quantity == quantity).collect();
+                tell(&format!("{way} {tolerance:.0e} {quantity:?}"), of);
             }
         }
+    }
+}
+
+fn tell(what: &str, mut judged: Vec<&Judged>) {
+    let count = |which: fn(&Judged) -> bool| judged.iter().filter(|one| which(one)).count();
+    let (good, bad) = (count(Judged::is_good), count(Judged::is_bad));
+    let share = 100.0 * good as f64 / judged.len().max(1) as f64;
+    println!("{what}: {share:.1} of 100 within three, {bad} of {} below a tenth", judged.len());
+    judged.sort_by(|a, b| (a.estimate / a.error).total_cmp(&(b.estimate / b.error)));
+    let worst = judged.iter().take(bad.max(4)).chain(judged.iter().rev().take(2));
+    for Judged { scene, time, estimate, error, .. } in worst {
+        println!("    {scene} at {time:.3} s: {estimate:.1e} for {error:.1e}");
     }
 }
 

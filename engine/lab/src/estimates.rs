@@ -3,18 +3,21 @@
 use crate::stress::random;
 use triad_engine::EngineError;
 use triad_engine::catalogue;
-use triad_engine::run::{Frame, Simulation};
+use triad_engine::run::Simulation;
+use triad_engine::state::BodyFrame;
 use triad_scene::{ConstraintMethod, IntegratorKind, Scene};
 
 /// Tolerance of the run that errors are measured with.
 const TIGHTEST: f64 = 1e-13;
-/// Part of the length of a mechanism below which an error cannot be measured that way: both runs round.
+/// Tolerance of the run that tells how far that can be trusted, where it need not be told closely.
+const NEXT_TIGHTEST: f64 = 1e-12;
+/// Part of the size of a quantity below which an error cannot be measured that way: both runs round.
 const MEASURABLE: f64 = 3e-12;
 /// How many times as far as two tight runs by different methods are apart an error must be to be measured by one of them, and the
 /// tolerance below which that is looked at: looser runs are much farther off.
 const KNOWN: f64 = 3.0;
 const NEAR_TIGHTEST: f64 = 3e-8;
-/// Part of that length above which a run promises nothing: it says that it doubts the result.
+/// Part of that size above which a run promises nothing: of the length of a mechanism, it says that it doubts the result.
 const PROMISED: f64 = 0.01;
 /// An estimate within this factor of the error is good.
 const GOOD: f64 = 3.0;
@@ -28,6 +31,36 @@ const MOST_STEPS: u64 = 100_000;
 /// The same of the run that only tells how far a tight one can be trusted.
 const MOST_STEPS_OF_OTHER: u64 = 20_000;
 
+/// What a run estimates the error of, the largest over all bodies or joints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Centres of mass, m.
+    Position,
+    /// Directors, rad.
+    Turn,
+    /// Their velocities, m/s.
+    Velocity,
+    /// Angular velocities, rad/s.
+    AngularVelocity,
+    /// The kinetic plus potential energy, J.
+    Energy,
+    /// Forces of joints and drivers, N.
+    Force,
+    /// Their moments, N m.
+    Moment,
+}
+
+/// All of them.
+pub const QUANTITIES: [Quantity; 7] = [
+    Quantity::Position,
+    Quantity::Turn,
+    Quantity::Velocity,
+    Quantity::AngularVelocity,
+    Quantity::Energy,
+    Quantity::Force,
+    Quantity::Moment,
+];
+
 /// An estimate, and the error that it estimates.
 #[derive(Clone, Debug)]
 pub struct Judged {
@@ -37,11 +70,14 @@ pub struct Judged {
     pub tolerance: f64,
     /// Time, s.
     pub time: f64,
-    /// Length of the mechanism, m.
-    pub length: f64,
-    /// The estimate of the largest error of a centre of mass, m.
+    /// What was estimated; the following are in its unit.
+    pub quantity: Quantity,
+    /// Its size: the length of the mechanism, one radian, and of the others the largest that there was so far; of forces and moments
+    /// also what those make of each other over that length.
+    pub size: f64,
+    /// The estimate of its error.
     pub estimate: f64,
-    /// That error, m.
+    /// That error.
     pub error: f64,
 }
 
@@ -51,9 +87,9 @@ impl Judged {
         (1.0 / GOOD..=GOOD).contains(&(self.estimate / self.error))
     }
 
-    /// Whether it is below a tenth of the error while it promises less than a hundredth of the length.
+    /// Whether it is below a tenth of the error.
     pub fn is_bad(&self) -> bool {
-        self.estimate < BAD * self.error && self.estimate < PROMISED * self.length
+        self.estimate < BAD * self.error
     }
 }
 
@@ -99,54 +135,140 @@ fn truth(scene: &Scene, integrator: IntegratorKind) -> Scene {
     tight
 }
 
-/// Judges the estimates of a scene's run, where it makes them and its errors can be measured.
+/// Judges the estimates of positions of a scene's run, where it makes them and its errors can be measured.
 ///
 /// # Errors
 ///
 /// [`EngineError`]: the scene cannot start. A run that cannot go on is judged up to there.
 pub fn judge(scene: &Scene) -> Result<Vec<Judged>, EngineError> {
+    let mut all = judge_all(scene)?;
+    all.retain(|one| one.quantity == Quantity::Position);
+    Ok(all)
+}
+
+/// The same of all quantities.
+///
+/// # Errors
+///
+/// Those of [`judge`].
+pub fn judge_all(scene: &Scene) -> Result<Vec<Judged>, EngineError> {
     let by = |integrator| Simulation::new(&truth(scene, integrator));
-    let (mut run, mut truth) = (Simulation::new(scene)?, by(IntegratorKind::Auto)?);
-    // Another method, so that the two do not err alike.
+    let (mut run, mut right) = (Simulation::new(scene)?, by(IntegratorKind::Auto)?);
+    // Near it another method, so that the two do not err alike.
     let near = scene.simulation.tolerance < NEAR_TIGHTEST;
-    let mut other = if near { Some(by(IntegratorKind::Dop853)?) } else { None };
+    let mut other = if near {
+        by(IntegratorKind::Dop853)?
+    } else {
+        Simulation::new(&truth(scene, IntegratorKind::Auto).tolerance(NEXT_TIGHTEST))?
+    };
     run.set_step_limit(MOST_STEPS);
-    truth.set_step_limit(MOST_STEPS);
-    if let Some(other) = &mut other {
-        other.set_step_limit(MOST_STEPS_OF_OTHER);
-    }
-    let length = run.system().length;
+    right.set_step_limit(MOST_STEPS);
+    other.set_step_limit(if near { MOST_STEPS_OF_OTHER } else { MOST_STEPS });
+    let mut sizes = [run.system().length, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     let mut judged = Vec::new();
     for k in 1..=MOMENTS {
         let time = run.duration() * f64::from(k) / f64::from(MOMENTS);
-        if run.advance_to(time).is_err() || truth.advance_to(time).is_err() {
+        if [&mut run, &mut right, &mut other].into_iter().any(|one| one.advance_to(time).is_err()) {
             break;
         }
-        let Some(estimate) = run.error_estimate() else { break };
-        let mut unsure = 0.0;
-        if let Some(other) = &mut other {
-            if other.advance_to(time).is_err() {
-                break;
-            }
-            unsure = apart(&other.frame(), &truth.frame());
+        let Some(estimates) = estimates(&run) else { break };
+        let true_numbers = Numbers::of(&right);
+        let unsure = true_numbers.apart(&Numbers::of(&other));
+        let errors = true_numbers.apart(&Numbers::of(&run));
+        true_numbers.raise(&mut sizes);
+        if estimates[0] >= PROMISED * sizes[0] {
+            continue;
         }
-        let error = apart(&run.frame(), &truth.frame());
-        let least = (MEASURABLE * length).max(KNOWN * unsure);
-        if error > least && estimate.position < PROMISED * length {
-            let (scene, tolerance) = (scene.name.clone(), scene.simulation.tolerance);
-            judged.push(Judged { scene, tolerance, time, length, estimate: estimate.position, error });
+        for (k, quantity) in QUANTITIES.into_iter().enumerate() {
+            let (size, estimate, error) = (sizes[k], estimates[k], errors[k]);
+            if error > (MEASURABLE * size).max(KNOWN * unsure[k]) && estimate < PROMISED * size {
+                let (scene, tolerance) = (scene.name.clone(), scene.simulation.tolerance);
+                judged.push(Judged { scene, tolerance, time, quantity, size, estimate, error });
+            }
         }
     }
     Ok(judged)
 }
 
-/// Largest distance of a centre of mass.
-fn apart(a: &Frame, b: &Frame) -> f64 {
-    let pairs = a.bodies.iter().zip(&b.bodies);
-    let squares = pairs.map(|(a, b)| {
-        (0..3).map(|k| (a.position[k] - b.position[k]) * (a.position[k] - b.position[k])).sum::<f64>()
-    });
-    squares.fold(0.0, f64::max).sqrt()
+/// What a run estimates, by quantity.
+fn estimates(run: &Simulation) -> Option<[f64; QUANTITIES.len()]> {
+    let (state, reactions) = (run.error_estimate()?, run.reaction_errors()?);
+    Some([
+        state.position,
+        state.turn,
+        state.velocity,
+        state.angular_velocity,
+        state.energy,
+        reactions.force,
+        reactions.moment,
+    ])
+}
+
+/// The numbers of a state.
+struct Numbers {
+    bodies: Vec<BodyFrame>,
+    kinetic: f64,
+    energy: f64,
+    /// Force and moment of each joint.
+    reactions: Vec<[[f64; 3]; 2]>,
+}
+
+impl Numbers {
+    fn of(run: &Simulation) -> Self {
+        let bodies = run.frame().bodies;
+        let kinetic = bodies.iter().zip(&run.system().model.bodies);
+        let kinetic = kinetic.map(|(body, of)| 0.5 * of.mass * square(body.velocity)).sum();
+        let reactions = run.multipliers().iter().map(|joint| [joint.force, joint.moment]).collect();
+        Self { bodies, kinetic, energy: run.summary().energy, reactions }
+    }
+
+    /// How far two states are apart, by quantity.
+    fn apart(&self, other: &Self) -> [f64; QUANTITIES.len()] {
+        let mut all = [0.0; QUANTITIES.len()];
+        let mut raise = |k: usize, distance: f64| all[k] = f64::max(all[k], distance);
+        for (a, b) in self.bodies.iter().zip(&other.bodies) {
+            raise(0, distance(a.position, b.position));
+            for (a, b) in [(a.u, b.u), (a.v, b.v), (a.w, b.w)] {
+                raise(1, distance(a, b));
+            }
+            raise(2, distance(a.velocity, b.velocity));
+            raise(3, distance(a.angular_velocity, b.angular_velocity));
+        }
+        raise(4, (self.energy - other.energy).abs());
+        for (a, b) in self.reactions.iter().zip(&other.reactions) {
+            raise(5, distance(a[0], b[0]));
+            raise(6, distance(a[1], b[1]));
+        }
+        all
+    }
+
+    /// Raises the sizes of quantities that have none of their own.
+    fn raise(&self, sizes: &mut [f64; QUANTITIES.len()]) {
+        let mut raise = |k: usize, size: f64| sizes[k] = f64::max(sizes[k], size);
+        for body in &self.bodies {
+            raise(2, length(body.velocity));
+            raise(3, length(body.angular_velocity));
+        }
+        raise(4, self.kinetic + self.energy.abs());
+        for [force, moment] in &self.reactions {
+            raise(5, length(*force));
+            raise(6, length(*moment));
+        }
+        let [long, .., force, moment] = *sizes;
+        (sizes[5], sizes[6]) = (force.max(moment / long), moment.max(long * force));
+    }
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    length([0, 1, 2].map(|k| a[k] - b[k]))
+}
+
+fn length(a: [f64; 3]) -> f64 {
+    square(a).sqrt()
+}
+
+fn square(a: [f64; 3]) -> f64 {
+    a.iter().map(|x| x * x).sum()
 }
 
 /// The scenes that estimates are judged on: the catalogue, and the random mechanisms of the first seeds.

@@ -95,6 +95,8 @@ pub struct Elimination {
     redundant: bool,
     /// Whether the current factor is that of a regularized S.
     regularized: bool,
+    /// Whether multipliers are found to be shown: those of dependent rows, which move nothing, are then the smallest to the last digit.
+    shows: bool,
     /// Whether rows that hardly hold are kept, and dependent ones left out instead of regularized.
     resolving: bool,
     regularizes_inertia: bool,
@@ -127,6 +129,7 @@ impl Elimination {
             residual: vec![0.0; rows],
             redundant: false,
             regularized: false,
+            shows: false,
             resolving: false,
             regularizes_inertia: system.regularizes_inertia(),
             frictions: (!system.frictions.is_empty()).then(|| Box::new(Frictions::new(system))),
@@ -263,21 +266,29 @@ impl Elimination {
         self.set_free_twists(system);
         // λ = S⁻¹ (A ξ₀ − γ'), ξ = ξ₀ − D⁻¹ Aᵀ λ.
         self.row_residual(system);
-        self.factor.solve(&mut self.residual);
-        self.counters.solves += 1;
+        self.solve_rows();
         self.lambda.copy_from_slice(&self.residual);
         self.apply_multipliers(system);
         if self.regularized || self.regularizes_inertia || self.resolving {
             for _ in 0..REFINEMENTS {
                 self.remove_regularization(system);
                 self.row_residual(system);
-                self.factor.solve(&mut self.residual);
-                self.counters.solves += 1;
+                self.solve_rows();
                 for (lambda, correction) in self.lambda.iter_mut().zip(&self.residual) {
                     *lambda += correction;
                 }
                 self.apply_multipliers(system);
             }
+        }
+    }
+
+    /// residual ← S⁻¹ residual.
+    fn solve_rows(&mut self) {
+        self.factor.solve(&mut self.residual);
+        self.counters.solves += 1;
+        if self.regularized && self.shows {
+            self.factor.clean(REGULARIZATION, &mut self.residual);
+            self.counters.solves += 1;
         }
     }
 

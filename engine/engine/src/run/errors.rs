@@ -5,7 +5,10 @@ use super::companion::Lost;
 use super::state_view::CachedState;
 use crate::scene::IntegratorKind;
 use serde::Serialize;
-use triad_dynamics::state::BodyFrame;
+use triad_dynamics::state::{BodyFrame, State};
+
+/// Part of the errors of all kinetic and potential energies below which they are not taken to cancel.
+const CANCELLED: f64 = 0.05;
 
 /// Estimated errors of the numbers of one state, each the largest over all bodies: what the run has collected since its start,
 /// not what one step adds.
@@ -79,6 +82,9 @@ impl Simulation {
             found.moment = found.moment.max((a.moment - b.moment).norm());
             found.largest_moment = found.largest_moment.max(a.moment.norm());
         }
+        found.force = found.force.max(f64::EPSILON * found.largest_force);
+        let moments = found.largest_moment.max(self.system().length * found.largest_force);
+        found.moment = found.moment.max(f64::EPSILON * moments);
         Some(found)
     }
 
@@ -124,13 +130,24 @@ impl Simulation {
         }
     }
 
+    /// Error of the energy. Where it is not kept, errors of its parts cancel for moments: it is never taken to be much below them.
+    fn energy_error(&self, here: &State, there: &State) -> f64 {
+        let system = self.system();
+        let (mut sum, mut apart) = (0.0, 0.0);
+        for (a, b) in here.energies(system).zip(there.energies(system)) {
+            sum += a.abs();
+            apart += (a - b).abs();
+        }
+        let error = (here.energy(system) - there.energy(system)).abs().max(f64::EPSILON * sum);
+        if system.is_conservative() { error } else { error.max(CANCELLED * apart) }
+    }
+
     /// The current state compared with that without an error.
     fn compare(&self, better: &CachedState) -> ErrorEstimate {
-        let (here, there, system) = (self.current.state(), better.state(), self.system());
+        let (here, there) = (self.current.state(), better.state());
         // No number is better than its own rounding.
         let rounding = |number: [f64; 3]| f64::EPSILON * apart(number, [0.0; 3]);
-        let energy = here.energy(system);
-        let energy = (energy - there.energy(system)).abs().max(f64::EPSILON * energy.abs());
+        let energy = self.energy_error(here, there);
         let turn = if here.bodies().is_empty() { 0.0 } else { f64::EPSILON };
         let mut found = ErrorEstimate { turn, energy, ..ErrorEstimate::default() };
         for (a, b) in here.bodies().iter().zip(there.bodies()) {

@@ -77,16 +77,25 @@ impl BlockCholesky {
         }
     }
 
-    /// Takes out of a solution of S + ε diag(S), whose numbers stand at [`Self::places`], what it has along vectors that S takes to zero:
-    /// there is nothing else to tell but what rounding makes of it, divided by ε. The rest keeps its size to the part ε.
+    /// Takes out of a solution of S + ε diag(S) what it has along vectors that S takes to zero: there is nothing else to tell but what
+    /// rounding makes of it, divided by ε. The rest keeps its size to the part ε.
     pub fn clean(&mut self, epsilon: f64, x: &mut [f64]) {
+        self.clean_at(epsilon, x, |row, _| row);
+    }
+
+    /// The same where the numbers stand at [`Self::places`].
+    pub fn clean_placed(&mut self, epsilon: f64, x: &mut [f64]) {
+        self.clean_at(epsilon, x, |_, place| place);
+    }
+
+    fn clean_at(&mut self, epsilon: f64, x: &mut [f64], at: impl Fn(usize, usize) -> usize) {
         let mut placed = std::mem::take(&mut self.placed);
-        for (&place, diagonal) in self.places.iter().zip(&self.diagonal) {
-            placed[place] = epsilon * diagonal * x[place];
+        for (row, (&place, diagonal)) in self.places.iter().zip(&self.diagonal).enumerate() {
+            placed[place] = epsilon * diagonal * x[at(row, place)];
         }
         self.solve_in_place(&mut placed);
-        for &place in &self.places {
-            x[place] -= placed[place];
+        for (row, &place) in self.places.iter().enumerate() {
+            x[at(row, place)] -= placed[place];
         }
         self.placed = placed;
     }

@@ -242,7 +242,11 @@ impl Elimination {
             self.counters.evaluations += 1;
             return self.last_accelerations(system, state);
         }
-        self.accelerate(system, state, baumgarte)
+        self.shows = true;
+        self.linearize(system, state);
+        self.accelerate_here(system, state, baumgarte);
+        self.shows = false;
+        self.last_accelerations(system, state)
     }
 
     /// Solves in the plane, where there is one; false where that cannot be done.

@@ -184,7 +184,7 @@ impl Part {
         let factor = other.map_or(&self.factor, |other| &other.factor);
         factor.solve_in_place(&mut self.residual);
         if self.epsilon > 0.0 {
-            self.factor.clean(self.epsilon, &mut self.residual);
+            self.factor.clean_placed(self.epsilon, &mut self.residual);
         }
         self.apply();
     }

@@ -126,7 +126,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let weight = (0..order).fold(1.0, |power, _| power * part);
         for b in 0..self.bundles.len() {
             let state = if part < 1.0 {
-                moved_both::<L, B>(&transport.at(b, tau), weight, &transport.added[b])
+                let ([x, v], [d, rate]) = (transport.at(b, tau), &transport.added[b]);
+                [moved::<L, B>(&x, weight * part, d), moved::<L, B>(&v, weight, rate)]
             } else {
                 transport.error[b]
             };
