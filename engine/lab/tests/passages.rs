@@ -227,6 +227,29 @@ fn lies_down(run: &mut Simulation, apart: f64) -> (Vec<f64>, f64) {
     (times, before)
 }
 
+/// Where a passage falls between the stages of a step, no state may be found at it in the coordinates of the step.
+#[test]
+fn explicit_methods_in_independent_coordinates_pass_all_windows() {
+    let mut wrong = Vec::new();
+    for name in ["n-four-bar:1", "n-four-bar:2", "n-four-bar:3"] {
+        let mut scene = catalogue::scene(name).unwrap();
+        scene.simulation.constraint_method = ConstraintMethod::Partitioning;
+        scene.simulation.error_estimate = false;
+        for (kind, tolerance) in
+            [Dop853, Dopri5, Ode45].into_iter().flat_map(|kind| [1e-3, 1e-4, 1e-5].map(|t| (kind, t)))
+        {
+            let mut run = run(&scene, kind, tolerance);
+            let (there, until) = lies_down(&mut run, 0.02);
+            let found = run.singular_configurations();
+            let off = found.iter().zip(&there).map(|(found, there)| (found.time - there).abs());
+            if found.len() != there.len() || there.len() < 10 || off.fold(0.0, f64::max) > 1e-3 {
+                wrong.push(format!("{name} {kind:?} {tolerance:.0e} up to {until}: {there:?} but {found:?}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
 /// `TRIAD_PASSAGES=10` takes all ten tolerances, and many more steps. Mechanisms without loops are not searched.
 #[test]
 fn every_built_in_scene_passes_what_there_is_by_every_integrator() {

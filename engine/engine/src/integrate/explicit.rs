@@ -141,7 +141,7 @@ impl Explicit {
         let left = end - self.last.t;
         let h = if FIXED_STEP_STRETCH * self.h >= left { left } else { self.h };
         self.attempt(system, h);
-        if self.trial.iter().any(|y| !y.is_finite()) {
+        if !is_finite(&self.trial) {
             return Err(self.last.not_finite());
         }
         // What is not finite there ends the next step.
@@ -176,7 +176,7 @@ impl Explicit {
             }
             if error.is_finite() {
                 self.h = h * (SAFETY * libm::pow(error, power)).max(least);
-            } else if h > MIN_RETRY * (1.0 + self.last.t.abs()) {
+            } else if h > MIN_RETRY * (1.0 + self.last.t.abs()) && is_finite(&self.rate) {
                 self.largest = NO_STATE * h;
                 self.h = self.largest;
             } else {
@@ -208,17 +208,22 @@ impl Explicit {
             }
             self.last.steps.rejected += 1;
             if error.is_nan() {
-                return Err(self.last.not_finite());
-            }
-            if h <= least {
+                if h <= MIN_RETRY * (1.0 + self.last.t.abs()) || !is_finite(&self.rate) {
+                    return Err(self.last.not_finite());
+                }
+                h *= NO_STATE;
+                self.largest = h;
+            } else if h <= least {
                 return Err(StopReason::StepTooSmall { time: self.last.t, step: h });
+            } else {
+                h = (h * control.shrink(error, untouched)).max(least);
             }
-            h = (h * control.shrink(error, untouched)).max(least);
             untouched = false;
         };
         self.reach_end(system, h, end);
         self.accept(system, h, end);
-        self.h = if untouched { control.next(h, error) } else { h };
+        self.h = if untouched { control.next(h, error) } else { h }.min(self.largest);
+        self.largest *= AFTER_NO_STATE;
         Ok(())
     }
 
@@ -251,7 +256,7 @@ impl Explicit {
             system.begin_stage(self.tableau.stages - 1, true);
             system.rhs(self.last.end_of(h, end), &self.trial, &mut self.end_rate);
         }
-        self.end_rate.iter().all(|rate| rate.is_finite())
+        is_finite(&self.end_rate)
     }
 
     /// Takes over the step whose end was evaluated last.
@@ -368,6 +373,10 @@ impl Stepper for Explicit {
     fn boxed(&self) -> Box<dyn Stepper> {
         Box::new(self.clone())
     }
+}
+
+fn is_finite(numbers: &[f64]) -> bool {
+    numbers.iter().all(|x| x.is_finite())
 }
 
 /// out ← y + h Σ a_j k_j.

@@ -1,8 +1,9 @@
 //! A method for ordinary differential equations, applied to (η, η̇) of a [`Chart`].
 
+mod between;
+
 use super::chart::Chart;
 use super::guess::Guess;
-use crate::integrate::hermite;
 use crate::integrate::power::{load_power, power};
 use crate::integrate::step::{StepRecord, StopReason};
 use crate::integrate::stepper::{OdeMethod, Stepper};
@@ -281,17 +282,6 @@ impl<M: OdeMethod> InChart<M> {
         let StepRecord { t, t_old, h, steps, .. } = *self.method.last();
         self.last = StepRecord { t, t_old, h, steps, y: std::mem::take(&mut self.last.y) };
     }
-
-    /// The state at time t within the last step from those at its ends, by cubics.
-    fn interpolate_ends(&self, t: f64, y: &mut [f64]) {
-        let n = y.len() / 2;
-        let StepRecord { t: end, y: y_new, h, .. } = &self.last;
-        let s = 1.0 + (t - end) / h;
-        for i in 0..n {
-            let ends = [&self.y_old, y_new].map(|y| [y[i], y[n + i]]);
-            (y[i], y[n + i]) = hermite::cubic(ends[0], ends[1], *h, s);
-        }
-    }
 }
 
 impl<M: OdeMethod> Stepper for InChart<M> {
@@ -310,15 +300,7 @@ impl<M: OdeMethod> Stepper for InChart<M> {
             y.copy_from_slice(&self.last.y);
             return;
         }
-        // The guess of the run stays as it is: outputs between steps must not change the run.
-        let mut guess = self.guess.clone();
-        let Self { method, chart, guess_old, at_stages, x, .. } = self;
-        let mut system = InCoordinates::new(mechanism, (chart, &mut guess, at_stages));
-        system.start = Some(guess_old);
-        method.interpolate(&mut system, t, x);
-        if system.find(t, x) {
-            write_state(mechanism, y);
-        } else {
+        if !self.find_between(mechanism, t, y) && !self.interpolate_beside(mechanism, t, y) {
             self.interpolate_smoothly(mechanism, t, y);
         }
     }
