@@ -31,7 +31,7 @@ const BETTER: f64 = 0.8;
 const PART_OF_TOLERANCE: f64 = 0.1;
 /// How much farther than foreseen a position may be found, as a factor, and in lengths of the mechanism.
 const FARTHER: f64 = 3.0;
-const NEAR: f64 = 1e-9;
+const NEAR: f64 = 1e-7;
 /// Largest entry of (L Z)⁻¹ above which tangent coordinates are taken anew: the chart is tilted by 34 degrees then.
 const TILTED: f64 = 1.2;
 /// Pivot of a row of the basis, relative to the largest, below which it depends on the rows that are chosen.
