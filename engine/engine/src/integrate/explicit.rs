@@ -202,7 +202,7 @@ impl Explicit {
         let mut untouched = true;
         let error = loop {
             self.attempt(system, h);
-            let error = h * Ode45Control::error(&self.k, &self.last.y, &self.trial);
+            let error = h * Ode45Control::error(&self.k, &self.last.y, &self.trial) * system.magnification();
             if error <= control.relative {
                 break error;
             }

@@ -72,11 +72,46 @@ fn a_looser_tolerance_costs_no_more_with_independent_coordinates() {
     }
 }
 
+/// Of ode45 as well, whose steps would else end far beyond the edge of a chart.
+#[test]
+fn a_looser_tolerance_costs_no_more_in_a_chart_whatever_the_method() {
+    for kind in [IntegratorKind::Dop853, IntegratorKind::Dopri5, IntegratorKind::Ode45] {
+        for name in ["heavy-top", "spatial-double-pendulum", "spatial-slider-crank", "bricard"] {
+            looser_costs_no_more(&partitioned(catalogue::scene(name).unwrap(), kind), MORE);
+        }
+    }
+}
+
 /// Where a chart is taken near a singular position, what lies in the guess moves by more than rounding: that is no other branch.
 #[test]
 fn a_looser_tolerance_costs_no_more_through_singular_positions() {
     for name in ["n-four-bar:1", "n-four-bar:2", "n-four-bar:3"] {
         looser_costs_no_more(&partitioned(catalogue::scene(name).unwrap(), IntegratorKind::Dop853), MORE);
+    }
+}
+
+/// Errors are about those of the same method with projection.
+#[test]
+fn ode45_is_as_exact_in_a_chart() {
+    let run = |integrator, method, tolerance| {
+        let mut scene = catalogue::scene("heavy-top").unwrap().tolerance(tolerance).integrator(integrator);
+        scene.simulation.constraint_method = method;
+        scene.simulation.error_estimate = false;
+        let mut run = Simulation::new(&scene).unwrap();
+        let place = |half: i32| {
+            run.advance_to(0.5 * f64::from(half)).unwrap();
+            run.frame().bodies[0].position
+        };
+        (1..=8).flat_map(place).collect::<Vec<f64>>()
+    };
+    let (projected, parted) = (ConstraintMethod::Projection, ConstraintMethod::Partitioning);
+    let truth = run(IntegratorKind::Taylor, projected, 1e-12);
+    for tolerance in [1e-3, 1e-4, 1e-5] {
+        let [projected, parted] = [projected, parted].map(|method| {
+            let found = run(IntegratorKind::Ode45, method, tolerance);
+            found.iter().zip(&truth).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        });
+        assert!(parted < 8.0 * projected, "{tolerance:.0e}: {parted:.1e}, by projection {projected:.1e}");
     }
 }
 
