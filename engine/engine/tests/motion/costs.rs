@@ -139,6 +139,11 @@ fn a_looser_tolerance_costs_no_more_with_the_stiff_method() {
     for damping in ["1e3", "1e4", "1e5"] {
         looser_costs_no_more(&damped(damping), MORE);
     }
+    for name in ["car-axis", "n-four-bar:2", "squeezer", "heavy-top"] {
+        let scene = catalogue::scene(name).unwrap().integrator(IntegratorKind::Radau);
+        looser_costs_no_more(&scene, MORE);
+        looser_costs_no_more(&partitioned(scene, IntegratorKind::Radau), MORE);
+    }
 }
 
 /// Three rods on hinges that are parallel to nothing, with a damper in the middle one.
