@@ -72,8 +72,8 @@ pub struct Judged {
     pub time: f64,
     /// What was estimated; the following are in its unit.
     pub quantity: Quantity,
-    /// Its size: the length of the mechanism, one radian, and of the others the largest that there was so far; of forces and moments
-    /// also what those make of each other over that length.
+    /// Its size: the length of the mechanism, one radian, and of the others the largest that there was so far; of velocities and angular
+    /// velocities, and of forces and moments, also what they make of each other over that length.
     pub size: f64,
     /// The estimate of its error.
     pub estimate: f64,
@@ -254,7 +254,8 @@ impl Numbers {
             raise(5, length(*force));
             raise(6, length(*moment));
         }
-        let [long, .., force, moment] = *sizes;
+        let [long, _, velocity, spin, _, force, moment] = *sizes;
+        (sizes[2], sizes[3]) = (velocity.max(long * spin), spin.max(velocity / long));
         (sizes[5], sizes[6]) = (force.max(moment / long), moment.max(long * force));
     }
 }
