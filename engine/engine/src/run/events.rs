@@ -3,7 +3,8 @@
 //!
 //! A step is searched in parts. A part over which the difference from the value changes sign contains a root; one over
 //! which the quantity turns back towards the value may contain two. Roots are found by Newton's method, safeguarded by
-//! bisection.
+//! bisection. A quantity that is nearer to the value than rounding tells is still on the side from which it came: one that rests on
+//! the value passes nothing.
 
 use super::Simulation;
 use schemars::JsonSchema;
@@ -13,7 +14,7 @@ use triad_dynamics::system::event::EventFunction;
 
 /// Number of equal parts of a step that are searched for roots.
 const PARTS: u32 = 12;
-/// A quantity that starts nearer to the value than this, relative to the value's size, counts as starting on it.
+/// A quantity that is nearer to the value than this, relative to the value's size, counts as being on it.
 const AT_VALUE: f64 = 1e-10;
 /// Greatest number of iterations for a root: bisection alone would need 60.
 const MAX_ITERATIONS: u32 = 80;
@@ -46,7 +47,7 @@ impl Simulation {
         last_numbers.clear();
         last_numbers.extend(mechanism.system.event_functions.iter().map(|function| {
             let mut number = function.evaluate(current.state());
-            if number[0].abs() < AT_VALUE * (1.0 + function.value.abs()) {
+            if is_at_value(number, function) {
                 number[0] = 0.0;
             }
             number
@@ -61,6 +62,7 @@ impl Simulation {
         let Self { mechanism, integrator, scratch, occurrences, last_numbers, .. } = self;
         let (before, end) = (occurrences.len(), integrator.last().t);
         let step = (end - integrator.last().h, end);
+        let whole = end >= mechanism.system.model.settings.duration;
         let functions = Arc::clone(&mechanism.system.event_functions);
         let y = &mut scratch[..integrator.last().y.len()];
         let evaluate = |t: f64, function: &EventFunction| {
@@ -69,6 +71,9 @@ impl Simulation {
             function.evaluate(&mechanism.state)
         };
         find(&functions, last_numbers, step, evaluate, occurrences);
+        if whole {
+            find_at_end(&functions, last_numbers, step, occurrences);
+        }
         if let Some(last) = occurrences[before..].iter().position(|event| event.stop) {
             occurrences.truncate(before + last + 1);
             self.end = occurrences[before + last].time;
@@ -90,13 +95,51 @@ fn find(
     for part in 1..=PARTS {
         let to = if part == PARTS { end } else { start + (end - start) * f64::from(part) / f64::from(PARTS) };
         for (function, last) in functions.iter().zip(&mut *last) {
-            let now = evaluate(to, function);
+            let mut now = evaluate(to, function);
+            if is_at_value(now, function) {
+                now[0] = nearly(last[0], function);
+            }
             let before = std::mem::replace(last, now);
             find_in_part(function, (from, before), (to, now), &mut evaluate, occurrences);
         }
         from = to;
     }
     occurrences[first..].sort_by(|a, b| a.time.total_cmp(&b.time));
+}
+
+/// Distance from the value below which a quantity is on it.
+fn band(function: &EventFunction) -> f64 {
+    AT_VALUE * (1.0 + function.value.abs())
+}
+
+fn is_at_value(number: [f64; 2], function: &EventFunction) -> bool {
+    number[0].abs() < band(function)
+}
+
+/// The difference that stands for a quantity on the value which came from this side; zero if it has been there since the start.
+fn nearly(side: f64, function: &EventFunction) -> f64 {
+    if side == 0.0 { 0.0 } else { band(function).copysign(side) }
+}
+
+/// Adds what arrives at its value, and would pass it, as the run ends.
+fn find_at_end(
+    functions: &[EventFunction],
+    last: &mut [[f64; 2]],
+    (start, end): (f64, f64),
+    occurrences: &mut Vec<EventOccurrence>,
+) {
+    for (function, [side, rate]) in functions.iter().zip(last) {
+        let passes = *side * *rate < 0.0 && rate.abs() * (end - start) > band(function);
+        if *side == nearly(*side, function) && passes && function.wants(*side < 0.0) {
+            *side = -*side;
+            occurrences.push(EventOccurrence {
+                name: function.name.clone(),
+                time: end,
+                rate: *rate,
+                stop: function.stop,
+            });
+        }
+    }
 }
 
 /// Adds the occurrences of one event within a part of a step.
@@ -120,7 +163,8 @@ fn find_in_part(
         }
         let turn = root((from, to, before[1]), |t| [evaluate(t, function)[1], f64::NAN]);
         let there = evaluate(turn, function)[0];
-        if side * there > 0.0 {
+        // One that only touches it has not.
+        if side.signum() * there > -band(function) {
             return;
         }
         ends = [Some((from, turn, side)), Some((turn, to, there))];

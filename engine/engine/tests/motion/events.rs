@@ -107,6 +107,56 @@ fn a_slide_passes_its_place() {
     }
 }
 
+/// A wheel waits, turns to 1 rad from 0.3 to 0.7 s, and waits there: it leaves one value and arrives at the other, and passes neither.
+#[test]
+fn a_number_that_rests_on_its_value_passes_nothing() {
+    let rest = |from: f64, to: f64, events: &Value, integrator: &str| {
+        let scene = json!({
+            "name": "wheel", "simulation": { "duration": 1 },
+            "bodies": [{ "name": "wheel", "mass": 2.0, "inertia": { "principal": [0.3, 0.5, 0.7] } },
+                { "name": "weight", "mass": 2.0, "inertia": { "principal": [0.3, 0.5, 0.7] }, "position": [0.3, 0.4, 0.5] }],
+            "joints": [{ "name": "axle", "type": "revolute", "body_i": "ground", "body_j": "wheel", "point": [0, 0, 0], "axis": [1, 2, 3] },
+                { "name": "held", "type": "fixed", "body_i": "ground", "body_j": "weight", "point": [1, 0, 0] }],
+            "drivers": [{ "type": "angle", "name": "motor", "joint": "axle",
+                "motion": { "kind": "smooth-step", "from": from, "to": to, "start": 0.3, "end": 0.7 } }],
+        });
+        let mut run = with_events(scene, integrator, events);
+        run.advance_to(1.0).unwrap();
+        (run.events().to_vec(), run.time())
+    };
+    let angle = |value: f64| json!({ "name": "angle", "of": { "type": "angle", "joint": "axle" }, "value": value, "stop": true });
+    let place = json!({ "name": "place", "of": { "type": "coordinate", "body": "weight", "point": [0.3, -0.3, 0.1], "direction": [1, 1, 1] },
+        "value": 1.3 / 3.0_f64.sqrt() });
+    for integrator in ["taylor", "dop853", "dopri5", "radau"] {
+        let (events, time) = rest(0.0, 1.0, &json!([angle(0.0), place]), integrator);
+        assert!(events.is_empty() && time == 1.0, "{integrator}: {} events to {time}", events.len());
+        let (events, time) = rest(0.0, 1.0, &json!([angle(1.0)]), integrator);
+        assert!(events.is_empty() && time == 1.0, "{integrator}: {} events to {time}", events.len());
+        let (events, _) = rest(0.0, 1.0, &json!([angle(0.5)]), integrator);
+        assert!(events.len() == 1 && (events[0].time - 0.5).abs() < 1e-10, "{integrator}: {events:?}");
+    }
+}
+
+/// What is passed just as the run ends is told, whatever rounding says.
+#[test]
+fn a_value_that_is_reached_as_the_run_ends_is_passed() {
+    for rate in [1.0, 0.3, 0.7, 1.1, 1.9, 2.3] {
+        let scene = json!({
+            "name": "wheel", "simulation": { "duration": 1 },
+            "bodies": [{ "name": "wheel", "mass": 2.0, "inertia": { "principal": [0.3, 0.5, 0.7] } }],
+            "joints": [{ "name": "axle", "type": "revolute", "body_i": "ground", "body_j": "wheel", "point": [0, 0, 0], "axis": [0, 0, 1] }],
+            "drivers": [{ "type": "angle", "name": "motor", "joint": "axle", "motion": { "kind": "ramp", "rate": rate } }],
+        });
+        let events = json!([{ "name": "there", "of": { "type": "angle", "joint": "axle" }, "value": rate }]);
+        for integrator in ALL {
+            let mut run = with_events(scene.clone(), integrator, &events);
+            run.advance_to(1.0).unwrap();
+            assert_eq!(run.events().len(), 1, "{integrator}, {rate}/s");
+            assert!((run.events()[0].time - 1.0).abs() < 1e-9, "{integrator}, {rate}/s");
+        }
+    }
+}
+
 #[test]
 fn an_event_without_its_joint_is_refused() {
     let mut scene = built_in("simple-pendulum");
