@@ -78,6 +78,10 @@ impl Outputs {
                 }
             }
         }
+        let reacts = |group: &Group| matches!(group, Group::Reaction(_) | Group::Driver { .. });
+        if run.mechanism.elimination.is_redundant() && outputs.groups.iter().any(reacts) {
+            outputs.tell_redundant();
+        }
         outputs
     }
 

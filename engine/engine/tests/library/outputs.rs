@@ -153,3 +153,17 @@ fn one_element_is_chosen_by_its_name() {
     assert_eq!((error.code(), error.pointer().as_deref()), ("output-invalid", Some("/simulation/outputs/0")));
     assert!(error.to_string().contains("did you mean \"pin\""), "{error}");
 }
+
+/// The columns cannot mark which reactions the equations leave open: what stands before them says that some are.
+#[test]
+fn a_table_says_where_reactions_are_not_all_unique() {
+    let tells = |name: &str, outputs: &[&str]| {
+        let mut scene = catalogue::scene(name).unwrap();
+        scene.simulation.outputs = outputs.iter().map(|word| word.parse().unwrap()).collect();
+        let run = Simulation::new(&scene).unwrap();
+        Outputs::new(&run).conventions().iter().any(|sentence| sentence.contains("not all unique"))
+    };
+    assert!(tells("n-four-bar:2", &["bodies", "reactions:B1"]));
+    assert!(!tells("n-four-bar:2", &["bodies"]), "no reactions");
+    assert!(!tells("simple-pendulum", &["reactions"]), "all are unique");
+}

@@ -129,6 +129,13 @@ impl Outputs {
         }
     }
 
+    /// That not all reactions are determined.
+    pub(super) fn tell_redundant(&mut self) {
+        let sentence = "Rows of this mechanism depend on each other, so that its reactions are not all unique: triad reactions tells \
+                        which numbers are; the others may differ here from the smallest ones, which it shows.";
+        self.convention(sentence.to_owned());
+    }
+
     fn reaction(&mut self, run: &Simulation, index: usize) {
         let (system, model) = (run.system(), run.model());
         let constraint = &system.constraints[index];
