@@ -11,6 +11,7 @@ mod custom_load;
 mod driver;
 mod error;
 mod event;
+mod gear;
 mod joint;
 mod joint_keys;
 mod load;
@@ -109,7 +110,7 @@ impl Model {
         // Joints and drivers share one space of names: both label rows.
         let mut row_names = HashMap::new();
         let (joints, starts) = read_joints(scene, &names, &bodies, &mut row_names, &mut notes)?;
-        placement::place(&mut bodies, &joints, &starts);
+        placement::place(&mut bodies, &joints, &starts, &mut notes);
         let reader = |list, index, name| ModelReader {
             list,
             index,

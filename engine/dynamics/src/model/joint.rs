@@ -1,5 +1,6 @@
 //! A joint with its geometry in the principal frames of its two bodies.
 
+use super::gear::wheels;
 use super::joint_keys::{AxisKeys, KnownKeys, OwnKeys, PointKeys, refuse_strangers};
 use super::reader::ModelReader;
 use super::{BodyRef, ModelError};
@@ -125,7 +126,7 @@ pub struct ModelJoint {
     pub name: String,
     /// What it is.
     pub geometry: JointGeometry,
-    /// Bodies i and j (of a gear: body j of its two joints).
+    /// Bodies i and j (of a gear: its wheels).
     pub bodies: [BodyRef; 2],
     /// The joint's point on body i and on body j, m.
     pub points: [Vector3<f64>; 2],
@@ -293,12 +294,13 @@ fn gear(joint: &Joint, reader: &ModelReader) -> Result<ModelJoint, ModelError> {
         return Err(reader.wrong("joints", "a gear couples two different joints"));
     }
     let [a, b] = pair.map(|index| &reader.joints[index]);
+    let [of_a, of_b] = wheels([a.bodies, b.bodies]);
     Ok(ModelJoint {
         name: joint.name.clone(),
         geometry: JointGeometry::Gear { joints: pair, ratio },
-        bodies: [a.bodies[1], b.bodies[1]],
-        points: [a.points[1], b.points[1]],
-        axes: [a.axes[1], b.axes[1]],
+        bodies: [a.bodies[of_a], b.bodies[of_b]],
+        points: [a.points[of_a], b.points[of_b]],
+        axes: [a.axes[of_a], b.axes[of_b]],
         cross: [[Vector3::zeros(); 2]; 2],
     })
 }

@@ -12,6 +12,9 @@ use std::collections::VecDeque;
 /// Greatest angle, displacement or rate of a joint at the start, SI units.
 const MAX_START: f64 = 1e6;
 
+/// Change of a velocity, m/s and rad/s, relative to its size, below which it counts as kept.
+const KEPT: f64 = 1e-6;
+
 /// What an author gives of a joint at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModelStart {
@@ -81,8 +84,13 @@ struct Carried {
     moved: bool,
 }
 
-/// Places the bodies as the starts say.
-pub(super) fn place(bodies: &mut [ModelBody], joints: &[ModelJoint], starts: &[ModelStart]) {
+/// Places the bodies as the starts say, and tells of velocities that they replace.
+pub(super) fn place(
+    bodies: &mut [ModelBody],
+    joints: &[ModelJoint],
+    starts: &[ModelStart],
+    notes: &mut Vec<String>,
+) {
     if starts.is_empty() {
         return;
     }
@@ -119,6 +127,7 @@ pub(super) fn place(bodies: &mut [ModelBody], joints: &[ModelJoint], starts: &[M
         queue.push_back((BodyRef::Moving(root), at));
     }
     for (body, carried) in bodies.iter_mut().zip(carried.into_iter().flatten()) {
+        notes.extend(replaced(body, &carried));
         put(body, &carried);
     }
 }
@@ -224,6 +233,20 @@ fn at_start(bodies: &[ModelBody], body: BodyRef) -> Isometry3<f64> {
             Isometry3::from_parts(body.position.into(), UnitQuaternion::from_rotation_matrix(&rotation))
         }
     }
+}
+
+/// What to tell of a body whose stated velocity gives way to that of joints.
+fn replaced(body: &ModelBody, at: &Carried) -> Option<String> {
+    let given = body.velocity.norm() + body.angular_velocity.norm() > 0.0;
+    let change = (body.velocity - at.motion[0]).norm() + (body.angular_velocity - at.motion[1]).norm();
+    let kept = change < KEPT * (1.0 + body.velocity.norm() + body.angular_velocity.norm());
+    (at.moved && given && !kept).then(|| {
+        let name = &body.name;
+        format!(
+            "body \"{name}\" moves as the \"start\" of joints says, not with the velocity that is stated for it: it hangs on a \
+             joint whose rate or speed is given; bodies that hang on nothing carry the others, the first of the list first"
+        )
+    })
 }
 
 /// Writes the place and the motion of a body.

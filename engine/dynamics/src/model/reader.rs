@@ -85,7 +85,10 @@ impl ModelReader<'_> {
         let Some(index) = self.joints.iter().position(|j| j.name == name) else {
             let nearest = nearest_name(name, self.joints.iter().map(|j| j.name.as_str()));
             let guess = nearest.map_or_else(String::new, |n| format!("; did you mean \"{n}\"?"));
-            return Err(self.wrong(key, format!("there is no joint \"{name}\"{guess}")));
+            // Of joints only a gear names others, and knows those before it.
+            let order =
+                if self.list == "joints" { " before it; a gear is written after its two joints" } else { "" };
+            return Err(self.wrong(key, format!("there is no joint \"{name}\"{order}{guess}")));
         };
         if kinds.contains(&self.joints[index].kind()) {
             Ok(index)

@@ -24,7 +24,7 @@ pub struct Taylor {
     /// The island that took the last step.
     stepped: usize,
     skipped: SkippedWork,
-    /// Whether the projection of the last step has shown that the constraints are satisfied.
+    /// Whether the projections of the last steps of all islands have shown that the constraints are satisfied.
     proven: bool,
     /// Projections so far.
     projections: u64,
@@ -83,11 +83,12 @@ impl Stepper for Taylor {
         let behind =
             self.islands.iter_mut().enumerate().min_by(|(_, a), (_, b)| a.time().total_cmp(&b.time()));
         if let Some((index, island)) = behind {
-            let (proven, rejected) = island.step(system, end, y)?;
-            (self.stepped, self.proven) = (index, proven);
+            let rejected = island.step(system, end, y)?;
+            self.stepped = index;
             steps.accepted += 1;
             steps.rejected += rejected;
             self.projections += 1;
+            self.proven = self.islands.iter().all(IslandStepper::is_proven);
             let reached = self.islands.iter().map(IslandStepper::time).fold(f64::INFINITY, f64::min);
             (*t_old, *t) = (*t, reached);
             if self.islands.len() > 1 {

@@ -18,3 +18,4 @@ mod pure;
 mod scene_words;
 mod snapshots;
 mod solution;
+mod told_of_joints;

@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used)]
 
+use serde_json::json;
 use triad_engine::catalogue;
+use triad_engine::reactions::report::Convention;
 use triad_engine::run::{Simulation, SkippedItem};
 use triad_engine::scene::{Driver, Ground, IntegratorKind, Joint, Motion, Orientation, Scene, Skip};
 
@@ -236,4 +238,80 @@ fn nothing_left_out_is_the_same_motion() {
     let largest = with.iter().zip(&without).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
     assert!(largest < 1e-8, "{largest:e}");
     assert!(left.iter().all(|l| l.saved == 0), "{left:?}");
+}
+
+/// Two wheels on a carrier, geared 1 : 2, which turns freely, or is the ground; a moment of 1 N m on the second one.
+fn geared(carrier: &str, wheels_first: [bool; 2], with_another: bool) -> Scene {
+    let wheel = |name: &str, x: f64| json!({ "name": name, "mass": 1, "inertia": { "principal": [0.1, 0.1, 0.1] }, "position": [x, 0, 0] });
+    let hinge = |name: &str, wheel: &str, first: bool, x: f64| {
+        let (i, j) = if first { (wheel, carrier) } else { (carrier, wheel) };
+        // Swapped bodies and a turned axis measure the same angle.
+        let axis = if first { -1 } else { 1 };
+        json!({ "name": name, "type": "revolute", "body_i": i, "body_j": j, "point": [x, 0, 0], "axis": [0, 0, axis] })
+    };
+    let mut bodies = vec![wheel("a", 0.0), wheel("b", 1.0)];
+    let mut joints = vec![hinge("A", "a", wheels_first[0], 0.0), hinge("B", "b", wheels_first[1], 1.0)];
+    joints.push(json!({ "name": "G", "type": "gear", "joints": ["A", "B"], "ratio": 2 }));
+    if carrier != "ground" {
+        bodies.push(wheel(carrier, 0.5));
+        joints.push(
+            json!({ "name": "C", "type": "revolute", "body_i": "ground", "body_j": carrier, "point": [0, 0, 0], "axis": [0, 0, 1] }),
+        );
+    }
+    if with_another {
+        bodies.push(wheel("far", 9.0));
+    }
+    let scene = json!({
+        "name": "geared", "gravity": [0, 0, 0], "bodies": bodies, "joints": joints,
+        "loads": [{ "name": "m", "type": "moment", "body": "b", "moment": [0, 0, 1] }],
+        "simulation": { "duration": 1, "integrator": "taylor", "tolerance": 1e-11 },
+    });
+    Scene::from_json(&scene.to_string()).unwrap()
+}
+
+/// A gear holds whichever bodies of its hinges are named first, also where another body moves on its own, and tells what it does to a
+/// wheel: α of the first wheel is 1 N m · 2 / (0.1 + 4 · 0.1) kg m², the gear takes all but 0.1 · 2 α of the moment.
+#[test]
+fn gears_hold_wheels_of_any_order_beside_other_islands() {
+    for first in [[false, false], [false, true], [true, false], [true, true]] {
+        for carrier in ["ground", "c"] {
+            let (together, _) = run(&geared(carrier, first, false));
+            let bodies = if carrier == "ground" { 2 } else { 3 };
+            let (beside, _) = run(&geared(carrier, first, true));
+            for (k, moment) in together.chunks(15 * bodies).zip(beside.chunks(15 * (bodies + 1))) {
+                let largest = k.iter().zip(moment).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
+                assert!(largest < 1e-9, "{carrier}, {first:?}: {largest:e}");
+            }
+        }
+        let mut grounded = Simulation::new(&geared("ground", first, true)).unwrap();
+        grounded.advance_to(1.0).unwrap();
+        let u = grounded.frame().bodies[0].u;
+        let angle = 0.5 * 2.0 / 0.5;
+        assert!(
+            (u[0] - libm::cos(angle)).abs() < 1e-9 && (u[1] - libm::sin(angle)).abs() < 1e-9,
+            "{first:?}: {u:?}"
+        );
+        let told = grounded.reactions(Convention::default()).unwrap();
+        let gear = told.reactions.iter().find(|reaction| reaction.joint == "G").unwrap();
+        assert_eq!((gear.on.as_str(), gear.by.as_str()), ("b", "a"));
+        assert!((gear.moment[2].value + 0.2).abs() < 1e-9, "{first:?}: {}", gear.moment[2].value);
+    }
+}
+
+/// A driver that asks a body for a motion which a fixed joint forbids is refused, also beside a body whose steps hold by themselves.
+#[test]
+fn an_impossible_motion_is_refused_beside_other_islands() {
+    let scene = json!({
+        "name": "welded", "simulation": { "duration": 1, "integrator": "taylor" },
+        "bodies": [{ "name": "a", "mass": 1, "inertia": { "principal": [0.1, 0.1, 0.1] } },
+            { "name": "b", "mass": 1, "inertia": { "principal": [0.1, 0.1, 0.1] }, "position": [1, 0, 0] }],
+        "joints": [{ "name": "F", "type": "fixed", "body_i": "ground", "body_j": "a", "point": [0, 0, 0] },
+            { "name": "A", "type": "revolute", "body_i": "ground", "body_j": "a", "point": [0, 0, 0], "axis": [0, 0, 1] },
+            { "name": "B", "type": "revolute", "body_i": "ground", "body_j": "b", "point": [1, 0, 0], "axis": [0, 0, 1] }],
+        "drivers": [{ "name": "d", "type": "angle", "joint": "A",
+            "motion": { "kind": "polynomial", "coefficients": [0, 0, 0, 1] } }],
+    });
+    let mut run = Simulation::new(&Scene::from_json(&scene.to_string()).unwrap()).unwrap();
+    let refused = run.advance_to(1.0).unwrap_err().to_string();
+    assert!(refused.contains("driver \"d\" asks for"), "{refused}");
 }

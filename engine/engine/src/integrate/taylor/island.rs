@@ -53,6 +53,8 @@ pub struct IslandStepper {
     t_old: f64,
     h_old: f64,
     order_old: usize,
+    /// Whether the last step has shown by itself that the constraints hold at its end.
+    proven: bool,
     steps: u64,
 }
 
@@ -120,6 +122,7 @@ impl IslandStepper {
             t_old: t,
             h_old: 0.0,
             order_old: order,
+            proven: true,
             steps: 0,
         }
     }
@@ -148,6 +151,11 @@ impl IslandStepper {
     /// Rows of the solver.
     pub fn rows(&self) -> usize {
         self.rows
+    }
+
+    /// Whether its last step has shown by itself that the constraints hold.
+    pub fn is_proven(&self) -> bool {
+        self.proven
     }
 
     /// Steps so far.
@@ -195,13 +203,12 @@ impl IslandStepper {
         self.series.constants_kept()
     }
 
-    /// Takes one step, not beyond `end`, and writes its own coordinates into y. Returns whether the step has shown by
-    /// itself that the constraints hold, and how often it was shortened.
+    /// Takes one step, not beyond `end`, and writes its own coordinates into y. Returns how often it was shortened.
     ///
     /// # Errors
     ///
     /// [`StopReason`]: why the run cannot go on.
-    pub fn step(&mut self, whole: &System, end: f64, y: &mut [f64]) -> Result<(bool, u64), StopReason> {
+    pub fn step(&mut self, whole: &System, end: f64, y: &mut [f64]) -> Result<u64, StopReason> {
         let plan = StepPlan {
             order: self.order,
             tolerance: self.tolerance,
@@ -229,8 +236,9 @@ impl IslandStepper {
         self.order_old = taken.order;
         self.order = taken.next_order.clamp(*self.orders.start(), *self.orders.end());
         self.t = taken.time;
+        self.proven = taken.proven;
         self.steps += 1;
-        Ok((taken.proven, taken.rejected))
+        Ok(taken.rejected)
     }
 
     /// Whether breakpoints of prescribed functions follow so closely until `end` that steps, which end at each of them, would
