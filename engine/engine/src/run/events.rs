@@ -7,13 +7,17 @@
 //! the value passes nothing.
 
 use super::Simulation;
+use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::sync::Arc;
+use triad_dynamics::state::{BodyFrame, State};
 use triad_dynamics::system::event::EventFunction;
 
-/// Number of equal parts of a step that are searched for roots.
+/// Number of equal parts of a step that are searched for roots, and of each half turn of a body that turns farther in the step.
 const PARTS: u32 = 12;
+/// Greatest number of parts of a step.
+const MAX_PARTS: u32 = 20_000;
 /// A quantity that is nearer to the value than this, relative to the value's size, counts as being on it.
 const AT_VALUE: f64 = 1e-10;
 /// Greatest number of iterations for a root: bisection alone would need 60.
@@ -65,12 +69,19 @@ impl Simulation {
         let whole = end >= mechanism.system.model.settings.duration;
         let functions = Arc::clone(&mechanism.system.event_functions);
         let y = &mut scratch[..integrator.last().y.len()];
+        let mut fastest = 0.0_f64;
+        for t in [step.0, step.1] {
+            integrator.interpolate(mechanism, t, y);
+            mechanism.set_state(t, y);
+            fastest = fastest.max(fastest_turning(&mechanism.state));
+        }
         let evaluate = |t: f64, function: &EventFunction| {
             integrator.interpolate(mechanism, t, y);
             mechanism.set_state(t, y);
             function.evaluate(&mechanism.state)
         };
-        find(&functions, last_numbers, step, evaluate, occurrences);
+        let parts = parts_of(fastest * (step.1 - step.0));
+        find(&functions, last_numbers, (step, parts), evaluate, occurrences);
         if whole {
             find_at_end(&functions, last_numbers, step, occurrences);
         }
@@ -81,19 +92,39 @@ impl Simulation {
     }
 }
 
-/// Finds the events of the step from `start` to `end`, in the order of time. `evaluate(t, function)` gives the value and the
+/// The largest angular velocity of a body, rad/s.
+fn fastest_turning(state: &State) -> f64 {
+    let turning = state.bodies().iter().map(|body| {
+        let frame = BodyFrame::from(body);
+        Vector3::from(frame.angular_velocity).norm()
+    });
+    turning.fold(0.0, f64::max)
+}
+
+/// Into how many parts a step is divided in which a body turns by `angle`: a method in coordinates of joints takes many turns at once.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "it is clamped; NaN, of a run that is lost, gives none"
+)]
+fn parts_of(angle: f64) -> u32 {
+    let wanted = f64::from(PARTS) * (angle / std::f64::consts::PI).ceil().max(1.0);
+    wanted.clamp(f64::from(PARTS), f64::from(MAX_PARTS)) as u32
+}
+
+/// Finds the events of the step from `start` to `end`, in the order of time, in so many parts. `evaluate(t, function)` gives the value and the
 /// rate of a function at time t.
 fn find(
     functions: &[EventFunction],
     last: &mut [[f64; 2]],
-    (start, end): (f64, f64),
+    ((start, end), parts): ((f64, f64), u32),
     mut evaluate: impl FnMut(f64, &EventFunction) -> [f64; 2],
     occurrences: &mut Vec<EventOccurrence>,
 ) {
     let first = occurrences.len();
     let mut from = start;
-    for part in 1..=PARTS {
-        let to = if part == PARTS { end } else { start + (end - start) * f64::from(part) / f64::from(PARTS) };
+    for part in 1..=parts {
+        let to = if part == parts { end } else { start + (end - start) * f64::from(part) / f64::from(parts) };
         for (function, last) in functions.iter().zip(&mut *last) {
             let mut now = evaluate(to, function);
             if is_at_value(now, function) {

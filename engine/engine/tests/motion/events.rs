@@ -137,6 +137,36 @@ fn a_number_that_rests_on_its_value_passes_nothing() {
     }
 }
 
+/// A rotor of 50 rad/s: `radau`, in the angle of its hinge, takes steps of many turns.
+#[test]
+fn every_turn_within_a_long_step_is_seen() {
+    let scene = json!({
+        "name": "rotor", "gravity": [0, 0, 0], "simulation": { "duration": 3 },
+        "bodies": [{ "name": "rotor", "mass": 1.0, "inertia": { "principal": [0.1, 0.1, 0.1] } }],
+        "joints": [{ "name": "axle", "type": "revolute", "body_i": "ground", "body_j": "rotor", "point": [0, 0, 0], "axis": [0, 0, 1],
+            "start": { "rate": 50 } }],
+    });
+    let events = json!([{ "name": "x", "of": { "type": "coordinate", "body": "rotor", "point": [1, 0, 0], "direction": [1, 0, 0] },
+        "value": 0.37 }]);
+    for integrator in ["radau", "taylor"] {
+        let mut run = with_events(scene.clone(), integrator, &events);
+        run.advance_to(3.0).unwrap();
+        let at = libm::acos(0.37);
+        let turn = std::f64::consts::TAU;
+        let exact: Vec<f64> = (0..24)
+            .map(f64::from)
+            .flat_map(|k| [turn * k + at, turn * (k + 1.0) - at])
+            .map(|angle| angle / 50.0)
+            .collect();
+        let times: Vec<f64> = run.events().iter().map(|event| event.time).collect();
+        assert_eq!(times.len(), 48, "{integrator}");
+        assert!(
+            times.iter().zip(exact).all(|(t, exact)| (t - exact).abs() < 1e-8),
+            "{integrator}: {times:?}"
+        );
+    }
+}
+
 /// What is passed just as the run ends is told, whatever rounding says.
 #[test]
 fn a_value_that_is_reached_as_the_run_ends_is_passed() {
