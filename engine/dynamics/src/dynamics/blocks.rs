@@ -1,6 +1,7 @@
 //! The layout of S, which never changes: which products of incidences make up its blocks — eq. (7.6).
 
 use crate::system::{Incidence, System};
+use triad_linalg::block_cholesky::stride;
 use triad_linalg::{BlockCholesky, block_cholesky};
 
 /// A product A_p D_b⁻¹ A_qᵀ of two incidences of one body, which is added to a block of S.
@@ -69,4 +70,34 @@ pub fn products_within(system: &System, most: usize) -> bool {
     let edges = with_rows(system, |incidence| incidence.rows);
     let edges = pairs(&edges).map(|(_, p, q)| (joint(p), joint(q)));
     block_cholesky::products_within(system.constraints.len(), edges, most)
+}
+
+/// Adds A Bᵀ to a block of S; rows of A and B have C numbers.
+pub fn add_block<const C: usize>(a: &[[f64; C]], b: &[[f64; C]], out: &mut [f64]) {
+    for (a, out) in a.iter().zip(out.chunks_exact_mut(stride(b.len()))) {
+        for (b, out) in b.iter().zip(out) {
+            *out += dot(a, b);
+        }
+    }
+}
+
+/// The same for N rows of both, whose block has rows of W numbers.
+#[inline(always)]
+pub fn add_square<const N: usize, const W: usize, const C: usize>(
+    a: &[[f64; C]],
+    b: &[[f64; C]],
+    out: &mut [f64],
+) {
+    let out = out.as_chunks_mut::<W>().0.first_chunk_mut::<N>();
+    let (Some(a), Some(b), Some(out)) = (a.first_chunk::<N>(), b.first_chunk::<N>(), out) else { return };
+    for (a, out) in a.iter().zip(out) {
+        for k in 0..N {
+            out[k] += dot(a, &b[k]);
+        }
+    }
+}
+
+#[inline(always)]
+fn dot<const C: usize>(a: &[f64; C], b: &[f64; C]) -> f64 {
+    (1..C).fold(a[0] * b[0], |sum, c| sum + a[c] * b[c])
 }

@@ -204,8 +204,15 @@ impl Elimination {
 
     /// Sets wrenches and γ' of the equations of motion, with the applied forces in place.
     fn set_right_side(&mut self, system: &System, state: &State, baumgarte: (f64, f64)) {
+        if baumgarte == (0.0, 0.0) {
+            // Nothing to measure.
+            return self.set_right_side_with(system, state, |_, _| 0.0);
+        }
         let (damping, stiffness) = (2.0 * baumgarte.0, baumgarte.1 * baumgarte.1);
-        let correction = move |value: f64, rate: f64| -damping * rate - stiffness * value;
+        self.set_right_side_with(system, state, |value, rate| -damping * rate - stiffness * value);
+    }
+
+    fn set_right_side_with(&mut self, system: &System, state: &State, correction: impl Fn(f64, f64) -> f64) {
         self.set_particular(system, state, true, |q, q_dot| {
             gram(|k, l| {
                 let value = q.e[k].dot(&q.e[l]) - if k == l { 1.0 } else { 0.0 };
@@ -213,7 +220,7 @@ impl Elimination {
                 -2.0 * q_dot.e[k].dot(&q_dot.e[l]) + correction(value, rate)
             })
         });
-        self.set_gamma(system, state, true, correction);
+        self.set_gamma(system, state, true, &correction);
     }
 
     /// What [`Elimination::accelerate`] has found last, at the state that it was given.
@@ -309,7 +316,7 @@ impl Elimination {
             let [v, w] = self.bodies[incidence.body].twist;
             let first = system[incidence.constraint].solver.start;
             let block = &self.jacobian.a[incidence.offset..incidence.offset + 6 * incidence.rows];
-            for (a, residual) in block.chunks_exact(6).zip(&mut self.residual[first..]) {
+            for (a, residual) in block.as_chunks::<6>().0.iter().zip(&mut self.residual[first..]) {
                 *residual +=
                     a[0] * v[0] + a[1] * v[1] + a[2] * v[2] + a[3] * w[0] + a[4] * w[1] + a[5] * w[2];
             }
@@ -322,7 +329,7 @@ impl Elimination {
             let [v, w] = &mut self.bodies[incidence.body].twist;
             let first = system[incidence.constraint].solver.start;
             let block = &self.b[incidence.offset..incidence.offset + 6 * incidence.rows];
-            for (b, lambda) in block.chunks_exact(6).zip(&self.residual[first..]) {
+            for (b, lambda) in block.as_chunks::<6>().0.iter().zip(&self.residual[first..]) {
                 for c in 0..3 {
                     v[c] -= b[c] * lambda;
                     w[c] -= b[3 + c] * lambda;

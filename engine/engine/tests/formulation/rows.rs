@@ -3,13 +3,13 @@
 
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
-use triad_engine::dynamics::elimination::Elimination;
+use triad_engine::dynamics::elimination::{Elimination, TwistJacobian};
 use triad_engine::equations;
 use triad_engine::equations::jacobian::Jacobian;
 use triad_engine::model::Model;
 use triad_engine::scene::{JointKind, Scene};
 use triad_engine::state::State;
-use triad_engine::system::System;
+use triad_engine::system::{Constraint, System};
 
 /// One joint of each kind, between points and along axes that do not meet.
 fn joints() -> Vec<serde_json::Value> {
@@ -203,5 +203,30 @@ fn a_refreshed_jacobian_is_a_new_one() {
             assert!(!before.constant || before.value == after.value);
         }
         assert_ne!(first, refreshed);
+    }
+}
+
+/// The solver's rows of common vectors are written again only where a vector has changed, and of points only how they turn.
+#[test]
+fn rows_that_are_filled_again_are_those_of_the_state() {
+    let system = System::new(Model::new(&scene(["full", "reduced", "full"])).unwrap());
+    let n = system.coordinates;
+    let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+    system.start(&mut q, &mut v);
+    let mut at = State::new(&system);
+    let mut again = TwistJacobian::new(&system);
+    // Bodies turn one after the other: of some rows one vector changes, of others none.
+    for moved in [0, 1, 2, 0] {
+        let layout = &system.bodies[moved].layout;
+        for (i, q) in q[layout.first..][..layout.size()].iter_mut().enumerate() {
+            *q += 0.1 * libm::sin(i as f64 * 1.3);
+        }
+        at.set_positions(&system, &q);
+        again.fill(&system, &at);
+        let mut new = TwistJacobian::new(&system);
+        new.fill(&system, &at);
+        for incidence in system.constraints.iter().flat_map(Constraint::incidence_ids) {
+            assert_eq!(again.rows_on(&system, incidence), new.rows_on(&system, incidence));
+        }
     }
 }

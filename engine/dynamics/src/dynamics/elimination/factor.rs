@@ -1,12 +1,12 @@
 //! S = A D⁻¹ Aᵀ and its factor — eq. (7.6).
 
 use super::{Elimination, LOST, NEAR_SINGULAR, REGULARIZATION};
+use crate::dynamics::blocks::{add_block, add_square};
 use crate::state::State;
 use crate::system::System;
 use crate::system::index::SolverRow;
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::{Matrix3, Vector3};
-use triad_linalg::block_cholesky::stride;
 
 impl Elimination {
     /// Builds A, S and its factor at the positions of a state.
@@ -85,9 +85,8 @@ impl Elimination {
             let inverse = &self.bodies[incidence.body].inverse;
             let inverse_mass = 1.0 / system.bodies[incidence.body].mass;
             let range = incidence.offset..incidence.offset + 6 * incidence.rows;
-            for (a, b) in
-                self.jacobian.a[range.clone()].chunks_exact(6).zip(self.b[range].chunks_exact_mut(6))
-            {
+            let a = self.jacobian.a[range.clone()].as_chunks::<6>().0;
+            for (a, b) in a.iter().zip(self.b[range].as_chunks_mut::<6>().0) {
                 let moment = inverse * Vector3::new(a[3], a[4], a[5]);
                 for c in 0..3 {
                     b[c] = a[c] * inverse_mass;
@@ -102,13 +101,13 @@ impl Elimination {
         let values = self.factor.values_mut();
         for product in &self.products {
             let (left, right) = (&system.incidences[product.left], &system.incidences[product.right]);
-            let a = &self.jacobian.a[left.offset..left.offset + 6 * left.rows];
-            let b = &self.b[right.offset..right.offset + 6 * right.rows];
-            let target = &mut values[product.offset..];
-            for (a, out) in a.chunks_exact(6).zip(target.chunks_exact_mut(stride(right.rows))) {
-                for (b, out) in b.chunks_exact(6).zip(out) {
-                    *out += a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-                }
+            let a = self.jacobian.a[left.offset..left.offset + 6 * left.rows].as_chunks::<6>().0;
+            let b = self.b[right.offset..right.offset + 6 * right.rows].as_chunks::<6>().0;
+            let out = &mut values[product.offset..];
+            match (left.rows, right.rows) {
+                // Balls.
+                (3, 3) => add_square::<3, 4, 6>(a, b, out),
+                _ => add_block(a, b, out),
             }
         }
     }

@@ -8,7 +8,7 @@
 
 use super::factor::inverse_inertia;
 use super::part::Part;
-use super::{Accelerations, BodySolve, Elimination, REFINEMENTS, REGULARIZATION};
+use super::{Accelerations, BodySolve, Elimination, REFINEMENTS, REGULARIZATION, TwistJacobian};
 use crate::state::{BodyState, State};
 use crate::system::feature::Difference;
 use crate::system::index::{FeatureId, SolverRow};
@@ -36,6 +36,8 @@ pub(super) struct InPlane {
     redundant: bool,
     /// What acts across the plane on each body: a force and two moments.
     wrenches: Vec<[f64; 3]>,
+    /// The changes of A up to which rows across were seen to have nothing of the plane.
+    seen: Option<u64>,
 }
 
 impl InPlane {
@@ -58,16 +60,19 @@ impl InPlane {
             across: Part::new(system, [normal, 3 + i, 3 + j], |row| !in_plane[row]),
             redundant: !dependent.is_empty(),
             wrenches: vec![[0.0; 3]; system.bodies.len()],
+            seen: None,
         })
     }
 
     /// Takes A and the inertia at a state; false where rows across have a part in the plane, or a body products
     /// of inertia, or none in the plane.
-    fn set_up(&mut self, system: &System, state: &State, a: &[f64]) -> bool {
+    fn set_up(&mut self, system: &System, state: &State, jacobian: &TwistJacobian) -> bool {
         let [i, j, n] = self.axes;
-        if !self.across.has_nothing_of([i, j, 3 + n], a) {
+        let (a, changes) = (&jacobian.a, Some(jacobian.changes()));
+        if self.seen != changes && !self.across.has_nothing_of([i, j, 3 + n], a) {
             return false;
         }
+        self.seen = changes;
         let bodies = system.bodies.iter().zip(state.bodies());
         for (own, (body, BodyState { q, .. })) in self.plane.bodies.iter_mut().zip(bodies) {
             let [mut inertia, mut products] = [0.0, 0.0];
@@ -81,7 +86,7 @@ impl InPlane {
             let inverse_mass = 1.0 / body.mass;
             own.inverse = [inverse_mass, inverse_mass, 1.0 / inertia, 0.0];
         }
-        self.plane.take(a);
+        self.plane.take([n, 3 + i, 3 + j], a);
         self.plane.scale();
         true
     }
@@ -138,7 +143,7 @@ impl InPlane {
             own.inverse = [1.0 / body.mass, inverse[(i, i)], inverse[(j, j)], inverse[(i, j)]];
             own.push(*wrench);
         }
-        across.take(a);
+        across.take([i, j, 3 + n], a);
         across.scale();
         let (epsilon, refinements) = if self.redundant { (REGULARIZATION, REFINEMENTS) } else { (0.0, 0) };
         let pivot = across.factor(epsilon);
@@ -222,6 +227,9 @@ impl Elimination {
     /// Takes over the plane that another solver of the same system has found.
     pub fn stay_in_plane_of(&mut self, other: &Self) {
         self.plane.clone_from(&other.plane);
+        if let Some(plane) = &mut self.plane {
+            plane.seen = None;
+        }
     }
 
     /// The same numbers as [`Elimination::accelerate`] up to rounding, at less cost where [`Elimination::find_plane`] has found one,
@@ -262,7 +270,7 @@ impl Elimination {
         }
         let Some(mut plane) = self.plane.take() else { return false };
         self.jacobian.fill(system, state);
-        let mut solved = plane.set_up(system, state, &self.jacobian.a);
+        let mut solved = plane.set_up(system, state, &self.jacobian);
         if solved {
             self.set_forces(system, state);
             self.set_right_side(system, state, baumgarte);

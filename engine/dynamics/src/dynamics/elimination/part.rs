@@ -1,20 +1,26 @@
 //! Equations of three of the six components of each body's twist, and of the rows that belong to them: S of a motion in a plane falls
 //! into one part in the plane and one across it.
 
-use crate::dynamics::blocks::{BlockProduct, SchurLayout};
+use crate::dynamics::blocks::{BlockProduct, SchurLayout, add_block, add_square};
 use crate::system::System;
+use crate::system::row::Form;
 use triad_linalg::BlockCholesky;
-use triad_linalg::block_cholesky::stride;
 
-/// The rows of a joint on a body.
+/// The rows of a joint on a body, among those of all blocks.
 #[derive(Clone, Debug)]
 struct Block {
-    body: usize,
-    /// Its rows among those of all blocks.
     first: usize,
     rows: usize,
-    /// Where its first row stands in right-hand sides.
+}
+
+/// A row of a block.
+#[derive(Clone, Copy, Debug)]
+struct BlockRow {
+    body: usize,
+    /// Where it stands in right-hand sides.
     place: usize,
+    /// Where it begins in A.
+    source: usize,
 }
 
 /// What a part knows of a body.
@@ -52,8 +58,12 @@ pub(super) struct Part {
     blocks: Vec<Block>,
     /// The solver rows, each with its place in right-hand sides.
     rows: Vec<(usize, usize)>,
-    /// Where the rows of the blocks begin in A.
-    sources: Vec<usize>,
+    /// The rows of the blocks.
+    block_rows: Vec<BlockRow>,
+    /// Those of them whose form alone does not tell which components they have.
+    unsure: Vec<usize>,
+    /// Whether the rows of A that were taken have nothing of the other components.
+    alone: bool,
     /// The rows of A, and A D⁻¹.
     a: Vec<[f64; 3]>,
     b: Vec<[f64; 3]>,
@@ -77,23 +87,40 @@ impl Part {
                 rows.push((row, factor.places()[rows.len()]));
             }
         }
-        let (mut blocks, mut sources) = (Vec::with_capacity(system.incidences.len()), Vec::new());
+        let mut of_points = vec![false; system.solver_rows];
+        for row in &system.rows {
+            if matches!(row.form, Form::Coincidence { .. }) {
+                of_points[row.solver..row.solver + 3].fill(true);
+            }
+        }
+        let (mut blocks, mut block_rows) = (Vec::with_capacity(system.incidences.len()), Vec::new());
+        let mut unsure = Vec::new();
         for incidence in &system.incidences {
             let constraint = incidence.constraint.index();
-            let place = rows.get(first[constraint]).map_or(0, |&(_, place)| place);
-            let (first, rows) = (sources.len(), sizes[constraint]);
-            blocks.push(Block { body: incidence.body, first, rows, place });
-            let own = system.constraints[constraint].solver.clone().enumerate();
-            sources.extend(own.filter(|&(_, row)| takes(row)).map(|(local, _)| incidence.offset + 6 * local));
+            let mut places = rows[first[constraint]..].iter().map(|&(_, place)| place);
+            blocks.push(Block { first: block_rows.len(), rows: sizes[constraint] });
+            for (local, row) in system.constraints[constraint].solver.clone().enumerate() {
+                let source = incidence.offset + 6 * local;
+                if takes(row)
+                    && let Some(place) = places.next()
+                {
+                    block_rows.push(BlockRow { body: incidence.body, place, source });
+                    if !of_points[row] {
+                        unsure.push(source);
+                    }
+                }
+            }
         }
         Self {
             columns,
             products,
             blocks,
             rows,
-            a: vec![[0.0; 3]; sources.len()],
-            b: vec![[0.0; 3]; sources.len()],
-            sources,
+            a: vec![[0.0; 3]; block_rows.len()],
+            b: vec![[0.0; 3]; block_rows.len()],
+            block_rows,
+            unsure,
+            alone: false,
             bodies: vec![PartBody::default(); system.bodies.len()],
             lambda: vec![0.0; factor.numbers()],
             residual: vec![0.0; factor.numbers()],
@@ -107,41 +134,42 @@ impl Part {
         self.rows.iter().map(|&(row, _)| row)
     }
 
-    /// Whether its rows have nothing of three other components in A.
+    /// Whether its rows have nothing of three other components in A, the displacements and the turn in a plane: rows of points across
+    /// it never do.
     pub fn has_nothing_of(&self, columns: [usize; 3], a: &[f64]) -> bool {
         let [i, j, k] = columns;
-        self.sources.iter().all(|&at| a[at + i] == 0.0 && a[at + j] == 0.0 && a[at + k] == 0.0)
+        self.unsure.iter().all(|&at| a[at + i] == 0.0 && a[at + j] == 0.0 && a[at + k] == 0.0)
     }
 
-    /// Takes its rows of A.
-    pub fn take(&mut self, a: &[f64]) {
-        let [i, j, k] = self.columns;
-        for (own, &at) in self.a.iter_mut().zip(&self.sources) {
-            *own = [a[at + i], a[at + j], a[at + k]];
+    /// Takes its rows of A, and looks whether they have anything of three other components.
+    pub fn take(&mut self, others: [usize; 3], a: &[f64]) {
+        let ([i, j, k], [x, y, z]) = (self.columns, others);
+        self.alone = true;
+        for (own, row) in self.a.iter_mut().zip(&self.block_rows) {
+            let Some(a) = a[row.source..].first_chunk::<6>() else { return };
+            *own = [a[i], a[j], a[k]];
+            self.alone &= a[x] == 0.0 && a[y] == 0.0 && a[z] == 0.0;
         }
     }
 
     /// Takes off from `wrenches` what the multipliers of its rows exert along three other components.
-    pub fn exert(&self, columns: [usize; 3], a: &[f64], wrenches: &mut [[f64; 3]]) {
-        for block in &self.blocks {
-            let wrench = &mut wrenches[block.body];
-            let sources = &self.sources[block.first..block.first + block.rows];
-            for (&at, lambda) in sources.iter().zip(&self.lambda[block.place..]) {
-                for (wrench, column) in wrench.iter_mut().zip(columns) {
-                    *wrench -= a[at + column] * lambda;
-                }
+    pub fn exert(&self, others: [usize; 3], a: &[f64], wrenches: &mut [[f64; 3]]) {
+        if self.alone {
+            return;
+        }
+        for row in &self.block_rows {
+            let Some(a) = a[row.source..].first_chunk::<6>() else { return };
+            let lambda = self.lambda[row.place];
+            for (wrench, column) in wrenches[row.body].iter_mut().zip(others) {
+                *wrench -= a[column] * lambda;
             }
         }
     }
 
     /// A D⁻¹ of the rows and inertias that were taken.
     pub fn scale(&mut self) {
-        for block in &self.blocks {
-            let body = self.bodies[block.body];
-            let rows = block.first..block.first + block.rows;
-            for (a, b) in self.a[rows.clone()].iter().zip(&mut self.b[rows]) {
-                *b = body.accelerated(*a);
-            }
+        for ((a, b), row) in self.a.iter().zip(&mut self.b).zip(&self.block_rows) {
+            *b = self.bodies[row.body].accelerated(*a);
         }
     }
 
@@ -153,11 +181,12 @@ impl Part {
             let [left, right] = [product.left, product.right].map(|incidence| &self.blocks[incidence]);
             let a = &self.a[left.first..left.first + left.rows];
             let b = &self.b[right.first..right.first + right.rows];
-            let target = values[product.offset..].chunks_exact_mut(stride(right.rows));
-            for (a, out) in a.iter().zip(target) {
-                for (b, out) in b.iter().zip(out) {
-                    *out += a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-                }
+            let out = &mut values[product.offset..];
+            match (left.rows, right.rows) {
+                // Hinges in a plane.
+                (2, 2) => add_square::<2, 2, 3>(a, b, out),
+                (3, 3) => add_square::<3, 4, 3>(a, b, out),
+                _ => add_block(a, b, out),
             }
         }
         self.epsilon = epsilon;
@@ -174,12 +203,9 @@ impl Part {
         for &(row, place) in &self.rows {
             self.residual[place] = -gamma(row);
         }
-        for block in &self.blocks {
-            let [u, v, w] = self.bodies[block.body].twist;
-            let rows = &self.a[block.first..block.first + block.rows];
-            for (a, residual) in rows.iter().zip(&mut self.residual[block.place..]) {
-                *residual += a[0] * u + a[1] * v + a[2] * w;
-            }
+        for (a, row) in self.a.iter().zip(&self.block_rows) {
+            let [u, v, w] = self.bodies[row.body].twist;
+            self.residual[row.place] += a[0] * u + a[1] * v + a[2] * w;
         }
         let factor = other.map_or(&self.factor, |other| &other.factor);
         factor.solve_in_place(&mut self.residual);
@@ -200,13 +226,10 @@ impl Part {
         for (lambda, change) in self.lambda.iter_mut().zip(&self.residual) {
             *lambda += change;
         }
-        for block in &self.blocks {
-            let twist = &mut self.bodies[block.body].twist;
-            let rows = &self.b[block.first..block.first + block.rows];
-            for (b, lambda) in rows.iter().zip(&self.residual[block.place..]) {
-                for c in 0..3 {
-                    twist[c] -= b[c] * lambda;
-                }
+        for (b, row) in self.b.iter().zip(&self.block_rows) {
+            let (twist, lambda) = (&mut self.bodies[row.body].twist, self.residual[row.place]);
+            for c in 0..3 {
+                twist[c] -= b[c] * lambda;
             }
         }
     }

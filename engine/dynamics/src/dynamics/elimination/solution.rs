@@ -51,14 +51,16 @@ impl<'a> Multipliers<'a> {
     pub fn wrench_on(&self, incidence: IncidenceId) -> [Vector3<f64>; 2] {
         let constraint = self.system[incidence].constraint;
         let lambda = &self.lambda[self.system[constraint].solver.clone()];
-        let mut wrench = [Vector3::zeros(); 2];
-        let rows = self.jacobian.rows_on(self.system, incidence);
+        let (mut force, mut moment) = ([0.0; 3], [0.0; 3]);
+        let rows = self.jacobian.rows_on(self.system, incidence).as_chunks::<6>().0;
         // Of hinges in a plane three rows out of five carry nothing.
-        for (a, lambda) in rows.chunks_exact(6).zip(lambda).filter(|(_, lambda)| **lambda != 0.0) {
-            wrench[0] -= Vector3::new(a[0], a[1], a[2]) * *lambda;
-            wrench[1] -= Vector3::new(a[3], a[4], a[5]) * *lambda;
+        for (a, lambda) in rows.iter().zip(lambda).filter(|(_, lambda)| **lambda != 0.0) {
+            for c in 0..3 {
+                force[c] -= a[c] * lambda;
+                moment[c] -= a[3 + c] * lambda;
+            }
         }
-        wrench
+        [force.into(), moment.into()]
     }
 
     /// The reaction of a joint or driver; none where it meets no moving body.
