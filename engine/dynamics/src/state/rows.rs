@@ -5,6 +5,7 @@ use crate::system::System;
 use crate::system::feature::Difference;
 use crate::system::row::Form;
 use nalgebra::Vector3;
+use triad_linalg::larger;
 
 /// What is left of a row's Φ or Φ̇; rows of one equation use the first component.
 pub type Residual = Vector3<f64>;
@@ -79,7 +80,7 @@ impl State {
     pub fn row_violation(&self, form: &Form) -> f64 {
         match *form {
             Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
-                (self.features[a.index()].value - self.features[b.index()].value).amax()
+                size(&(self.features[a.index()].value - self.features[b.index()].value))
             }
             Form::Product { a, b, target } => (self.product(a, b).value - self.target(target)[0]).abs(),
             Form::Relation { .. } => self.relation(form).value.abs(),
@@ -91,7 +92,7 @@ impl State {
         self.require(Stage::Velocities);
         match *form {
             Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
-                (self.features[a.index()].rate - self.features[b.index()].rate).amax()
+                size(&(self.features[a.index()].rate - self.features[b.index()].rate))
             }
             Form::Product { a, b, target } => (self.product(a, b).rate - self.target(target)[1]).abs(),
             Form::Relation { .. } => self.relation(form).rate.abs(),
@@ -106,11 +107,11 @@ impl State {
             for k in 0..3 {
                 for l in 0..=k {
                     let unit = if k == l { 1.0 } else { 0.0 };
-                    largest = largest.max((state.q.e[k].dot(&state.q.e[l]) - unit).abs());
+                    largest = larger(largest, (state.q.e[k].dot(&state.q.e[l]) - unit).abs());
                 }
             }
         }
-        system.rows.iter().fold(largest, |largest, row| largest.max(self.row_violation(&row.form)))
+        system.rows.iter().fold(largest, |largest, row| larger(largest, self.row_violation(&row.form)))
     }
 
     /// Largest |Φ̇| over all rows, rigid-body rows included.
@@ -121,10 +122,16 @@ impl State {
             let (q, q_dot) = (&state.q, &state.q_dot);
             for k in 0..3 {
                 for l in 0..=k {
-                    largest = largest.max((q.e[k].dot(&q_dot.e[l]) + q.e[l].dot(&q_dot.e[k])).abs());
+                    largest = larger(largest, (q.e[k].dot(&q_dot.e[l]) + q.e[l].dot(&q_dot.e[k])).abs());
                 }
             }
         }
-        system.rows.iter().fold(largest, |largest, row| largest.max(self.row_rate_violation(&row.form)))
+        system.rows.iter().fold(largest, |largest, row| larger(largest, self.row_rate_violation(&row.form)))
     }
+}
+
+/// The largest component.
+#[inline(always)]
+fn size(x: &Vector3<f64>) -> f64 {
+    larger(larger(x[0].abs(), x[1].abs()), x[2].abs())
 }

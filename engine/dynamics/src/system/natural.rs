@@ -136,8 +136,25 @@ impl Layout {
         })
     }
 
+    /// Whether all twelve numbers are its own, one after the other.
+    fn is_plain(&self) -> bool {
+        let own = |k: usize| matches!(self.directors[k], Director::Own(at) if at == self.first + 3 + 3 * k);
+        own(0) && own(1) && own(2)
+    }
+
+    /// The numbers of such a body.
+    #[inline(always)]
+    fn plain(&self, q: &[f64]) -> Option<NaturalCoordinates> {
+        let numbers = q[self.first..].first_chunk::<12>().filter(|_| self.is_plain())?;
+        let vector = |k: usize| Vector3::new(numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]);
+        Some(NaturalCoordinates { r: vector(0), e: [vector(1), vector(2), vector(3)] })
+    }
+
     /// Q of all generalized coordinates q; a reduced body has w = u × v — eq. (3.1).
     pub fn position(&self, q: &[f64]) -> NaturalCoordinates {
+        if let Some(plain) = self.plain(q) {
+            return plain;
+        }
         let read = |d: Director| match d {
             Director::Own(column) => vector(q, column),
             Director::Shared { column, sign } => vector(q, column) * sign,
@@ -153,6 +170,9 @@ impl Layout {
 
     /// Q̇ = V q̇ — eq. (3.2).
     pub fn velocity(&self, at: &NaturalCoordinates, q_dot: &[f64]) -> NaturalCoordinates {
+        if let Some(plain) = self.plain(q_dot) {
+            return plain;
+        }
         let read = |d: Director| match d.column() {
             Some((column, sign)) => vector(q_dot, column) * sign,
             None => Vector3::zeros(),
@@ -180,9 +200,7 @@ impl Layout {
 
     /// Writes the body's own coordinates of a vector of natural coordinates into q.
     pub fn store(&self, natural: &NaturalCoordinates, q: &mut [f64]) {
-        let first = self.first;
-        let own = [3, 6, 9].map(|column| Director::Own(first + column));
-        if let (true, Some(q)) = (self.directors == own, q[first..].first_chunk_mut::<12>()) {
+        if let (true, Some(q)) = (self.is_plain(), q[self.first..].first_chunk_mut::<12>()) {
             let [u, v, w] = &natural.e;
             let vectors = q.as_chunks_mut::<3>().0.iter_mut().zip([&natural.r, u, v, w]);
             vectors.for_each(|(q, vector)| *q = (*vector).into());

@@ -71,21 +71,23 @@ impl Simulation {
     /// Estimated errors of the reactions at the current state; `None` as for [`Simulation::error_estimate`]. They are computed
     /// a second time, without the error of the state: with what was found for the state, if that is near enough.
     pub fn reaction_errors(&self) -> Option<ReactionErrors> {
-        let [here, there] = self.current.both(self.better()?, self);
-        let mut found = ReactionErrors::default();
-        for constraint in &self.system().constraints {
-            let (Some(a), Some(b)) = (here.joint_wrench(constraint), there.joint_wrench(constraint)) else {
-                continue;
-            };
-            found.force = found.force.max((a.force - b.force).norm());
-            found.largest_force = found.largest_force.max(a.force.norm());
-            found.moment = found.moment.max((a.moment - b.moment).norm());
-            found.largest_moment = found.largest_moment.max(a.moment.norm());
+        let there = self.current.multipliers_of(self.better()?, self);
+        // The largest squares of their lengths, and one root of each in the end.
+        let mut squares = [0.0f64; 4];
+        for (constraint, [force, moment]) in self.system().constraints.iter().zip(self.current.wrenches(self))
+        {
+            let Some(other) = there.joint_wrench(constraint) else { continue };
+            let vectors = [force - other.force, *force, moment - other.moment, *moment];
+            for (square, vector) in squares.iter_mut().zip(vectors) {
+                *square = square.max(vector.norm_squared());
+            }
         }
-        found.force = found.force.max(f64::EPSILON * found.largest_force);
-        let moments = found.largest_moment.max(self.system().length * found.largest_force);
-        found.moment = found.moment.max(f64::EPSILON * moments);
-        Some(found)
+        let [force, largest_force, moment, largest_moment] = squares.map(f64::sqrt);
+        // Nor is a reaction better than its rounding.
+        let of_moments = largest_moment.max(self.system().length * largest_force);
+        let [force, moment] =
+            [(force, largest_force), (moment, of_moments)].map(|(error, of)| error.max(f64::EPSILON * of));
+        Some(ReactionErrors { force, largest_force, moment, largest_moment })
     }
 
     /// From when on the error is not known, s: it has grown so far that it is no longer small against the mechanism, or the second
@@ -118,7 +120,8 @@ impl Simulation {
 
     /// The error of the current state, where it is known.
     pub(super) fn error_of_state(&self) -> Option<Vec<f64>> {
-        let mut error = vec![0.0; self.current.y().len()];
+        // Numbers that are all written over.
+        let mut error = self.current.y().to_vec();
         self.write_error(&mut error).then_some(error)
     }
 
@@ -151,25 +154,26 @@ impl Simulation {
     /// The current state compared with that without an error.
     fn compare(&self, better: &CachedState) -> ErrorEstimate {
         let (here, there) = (self.current.state(), better.state());
-        // No number is better than its own rounding.
-        let rounding = |number: [f64; 3]| f64::EPSILON * apart(number, [0.0; 3]);
         let energy = self.energy_error(here, there);
-        let turn = if here.bodies().is_empty() { 0.0 } else { f64::EPSILON };
-        let mut found = ErrorEstimate { turn, energy, ..ErrorEstimate::default() };
+        // Largest squares of lengths: of errors, and of the numbers, none of which is better than its own rounding.
+        let (mut turn, mut errors, mut numbers) = (0.0f64, [0.0f64; 3], [0.0f64; 3]);
         for (a, b) in here.bodies().iter().zip(there.bodies()) {
             let (a, b) = (BodyFrame::from(a), BodyFrame::from(b));
-            let turn = apart(a.u, b.u).max(apart(a.v, b.v)).max(apart(a.w, b.w));
-            found.position = found.position.max(apart(a.position, b.position)).max(rounding(a.position));
-            found.turn = found.turn.max(turn);
-            found.velocity = found.velocity.max(apart(a.velocity, b.velocity)).max(rounding(a.velocity));
-            let spin = apart(a.angular_velocity, b.angular_velocity).max(rounding(a.angular_velocity));
-            found.angular_velocity = found.angular_velocity.max(spin);
+            turn = turn.max(apart(a.u, b.u)).max(apart(a.v, b.v)).max(apart(a.w, b.w));
+            let of = |frame: &BodyFrame| [frame.position, frame.velocity, frame.angular_velocity];
+            for (k, (a, b)) in of(&a).into_iter().zip(of(&b)).enumerate() {
+                errors[k] = errors[k].max(apart(a, b));
+                numbers[k] = numbers[k].max(apart(a, [0.0; 3]));
+            }
         }
-        found
+        let worth = |k: usize| errors[k].sqrt().max(f64::EPSILON * numbers[k].sqrt());
+        let rounding = if here.bodies().is_empty() { 0.0 } else { f64::EPSILON };
+        let [position, velocity, angular_velocity] = [0, 1, 2].map(worth);
+        ErrorEstimate { position, turn: turn.sqrt().max(rounding), velocity, angular_velocity, energy }
     }
 }
 
-/// Distance of two points.
+/// Square of the distance of two points.
 fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum::<f64>().sqrt()
+    (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum()
 }

@@ -180,10 +180,7 @@ fn write(run: &Simulation, group: Group, row: &mut Vec<f64>) {
             let turning: Vector3<f64> = (0..3).map(|k| q.e[k].cross(&second.e[k])).sum();
             push(row, &[second.r, turning * 0.5]);
         }
-        Group::Reaction(constraint) => {
-            let view = run.state();
-            push(row, &wrench(&view.solved().multipliers, constraint));
-        }
+        Group::Reaction(constraint) => push(row, &run.current.wrenches(run)[constraint]),
         Group::Driver { constraint, driver } => {
             let view = run.state();
             write_driver(&view.solved().multipliers, constraint, &model.drivers[driver].kind, row);

@@ -5,6 +5,7 @@ use crate::error::EngineError;
 use crate::reactions::matrices::{self, Symmetric};
 use crate::reactions::report::{Convention, ReactionReport, report};
 use crate::reactions::{self, JointMultipliers};
+use nalgebra::Vector3;
 use std::borrow::Cow;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use triad_dynamics::constraints::mechanism::Mechanism;
@@ -29,6 +30,8 @@ pub(super) struct CachedState {
 struct Results {
     /// A solver with the accelerations and multipliers of the state.
     solved: OnceLock<Box<Elimination>>,
+    /// What each joint and driver exerts: force and moment, zero where it meets no moving body.
+    wrenches: OnceLock<Vec<[Vector3<f64>; 2]>>,
     /// The solver of the state before, to be used again: a table asks for one row after the other.
     spare: Mutex<Option<Box<Elimination>>>,
     /// Work of drivers and of loads without potential since the start of the last step, J.
@@ -116,7 +119,6 @@ impl CachedState {
             let mut better = spare.unwrap_or_else(|| Box::new(self.clone()));
             better.results = std::mem::take(&mut better.results).spare();
             better.time = self.time;
-            better.y.fill(0.0);
             if !error(&mut better.y) {
                 return None;
             }
@@ -131,14 +133,25 @@ impl CachedState {
         self.results.better.get_or_init(find).as_deref()
     }
 
-    /// Multipliers of this state and of one nearby, which is this one without its error.
-    pub fn both<'a>(&'a self, better: &'a Self, run: &'a Simulation) -> [Multipliers<'a>; 2] {
-        let system = run.system();
-        let here = self.solver(run, None);
-        let there = better.solver(run, Some(here));
-        let (here, there) =
-            (here.last_accelerations(system, &self.state), there.last_accelerations(system, &better.state));
-        [here.multipliers, there.multipliers]
+    /// Multipliers of a state nearby, which is this one without its error.
+    pub fn multipliers_of<'a>(&'a self, better: &'a Self, run: &'a Simulation) -> Multipliers<'a> {
+        let solver = better.solver(run, Some(self.solver(run, None)));
+        solver.last_accelerations(run.system(), &better.state).multipliers
+    }
+
+    /// Force and moment of each joint and driver: see [`Multipliers::joint_wrench`].
+    pub fn wrenches(&self, run: &Simulation) -> &[[Vector3<f64>; 2]] {
+        let find = || {
+            let at = self.solver(run, None).last_accelerations(run.system(), &self.state).multipliers;
+            let exerted =
+                |constraint| at.joint_wrench(constraint).map(|wrench| [wrench.force, wrench.moment]);
+            run.system()
+                .constraints
+                .iter()
+                .map(|constraint| exerted(constraint).unwrap_or_default())
+                .collect()
+        };
+        self.results.wrenches.get_or_init(find)
     }
 
     /// A solver with the accelerations and multipliers of this state, and what is known of one nearby.

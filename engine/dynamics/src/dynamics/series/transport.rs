@@ -14,7 +14,7 @@ use crate::newton::Projectable;
 use crate::system::System;
 use differences::{Between, Differ, Missed, Size, moved, moved_both, value};
 use energy::Energy;
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 use std::mem::swap;
 use triad_linalg::larger;
 
@@ -126,14 +126,33 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let weight = (0..order).fold(1.0, |power, _| power * part);
         for b in 0..self.bundles.len() {
             let state = if part < 1.0 {
-                let ([x, v], [d, rate]) = (transport.at(b, tau), &transport.added[b]);
-                [moved::<L, B>(&x, weight * part, d), moved::<L, B>(&v, weight, rate)]
+                Arch::new().dispatch(Within { transport, b, tau, weights: [weight * part, weight] })
             } else {
                 transport.error[b]
             };
             self.store_error(system, b, &state, out);
         }
         true
+    }
+}
+
+/// The error of a bundle within a step, of which the step itself has added these parts to positions and velocities so far; to be compiled
+/// for each set of vector instructions.
+struct Within<'a, const L: usize, B: Bodies<L>> {
+    transport: &'a Transport<L, B>,
+    b: usize,
+    tau: f64,
+    weights: [f64; 2],
+}
+
+impl<const L: usize, B: Bodies<L>> WithSimd for Within<'_, L, B> {
+    type Output = [B::Natural; 2];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> [B::Natural; 2] {
+        let Self { transport, b, tau, weights } = self;
+        let (carried, added) = (transport.at(b, tau), &transport.added[b]);
+        [0, 1].map(|k| moved::<L, B>(&carried[k], weights[k], &added[k]))
     }
 }
 
@@ -197,6 +216,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
     }
 
     /// What the last step has carried up to τ, of bundle b.
+    #[inline(always)]
     fn at(&self, b: usize, tau: f64) -> [B::Natural; 2] {
         let first = b * self.twin.stride;
         value::<L, B>(&self.carried[first..=first + self.order], tau)

@@ -1,7 +1,9 @@
 //! Rows of a table as text.
 
-/// Room for the longest number and a comma, and the numbers that are put down at once.
+/// Room for the longest number and a comma, and the numbers that are put down together.
 const LONGEST: usize = 25;
+const TOGETHER: usize = 16;
+/// The numbers that are put down at once.
 const ZERO: u64 = 0.0f64.to_bits();
 const ONE: u64 = 1.0f64.to_bits();
 
@@ -14,23 +16,36 @@ const ONE: u64 = 1.0f64.to_bits();
 /// ```
 pub fn append_row(text: &mut Vec<u8>, row: &[f64]) {
     let mut digits = zmij::Buffer::new();
-    let mut end = text.len();
-    // The commas are there before the numbers.
-    text.resize(end + LONGEST * row.len(), b',');
-    for number in row {
-        let room = &mut text[end..];
-        end += 1 + match number.to_bits() {
-            // What bodies in a plane have many of.
-            ZERO => put(b"0", room),
-            ONE => put(b"1", room),
-            _ => {
-                let number = digits.format(*number).as_bytes();
-                put(if let [number @ .., b'.', b'0'] = number { number } else { number }, room)
-            }
-        };
+    let mut room = [b','; LONGEST * TOGETHER];
+    for numbers in row.chunks(TOGETHER) {
+        let mut end = 0;
+        for number in numbers {
+            let room = &mut room[end..];
+            let count = match number.to_bits() {
+                // What bodies in a plane have many of.
+                ZERO => put_one(b'0', room),
+                ONE => put_one(b'1', room),
+                _ => {
+                    let number = digits.format(*number).as_bytes();
+                    put(if let [number @ .., b'.', b'0'] = number { number } else { number }, room)
+                }
+            };
+            room[count] = b',';
+            end += count + 1;
+        }
+        text.extend_from_slice(&room[..end]);
     }
-    text.truncate(end - usize::from(!row.is_empty()));
+    if !row.is_empty() {
+        text.pop();
+    }
     text.push(b'\n');
+}
+
+/// Puts a digit where there is room, and says that it is one.
+#[inline(always)]
+fn put_one(digit: u8, room: &mut [u8]) -> usize {
+    room[0] = digit;
+    1
 }
 
 /// Puts digits where there is room, and says how many they are. Pieces of known length take no call.
