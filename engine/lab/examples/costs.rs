@@ -2,14 +2,15 @@
 //!
 //! The cost of a step by size, with its exponent; the time to assemble and the memory of the whole process with 2000
 //! bodies; and, where valgrind is installed, instructions of whole runs: those of three runs less those of one, so that a
-//! restart is in them and the assembly is not.
+//! restart is in them and the assembly is not. `costs table n-four-bar:20 bodies,reactions,errors,text 1001 1` computes the rows of a
+//! table, and writes them as text where that word ends the columns, to be looked at with valgrind.
 
 use std::env;
 use std::process::Command;
 use std::time::{Duration, Instant};
 use triad_engine::EngineError;
 use triad_engine::catalogue;
-use triad_engine::run::Simulation;
+use triad_engine::run::{Outputs, RowWriter, Simulation, append_row};
 use triad_engine::scene::Scene;
 use triad_lab::sweep::{SweepPlan, Unwatched, Values, Variation, sweep};
 
@@ -50,6 +51,7 @@ fn main() -> Result<(), EngineError> {
         ["hold", name] => hold(name),
         ["start", name, repeats] => start(name, repeats),
         ["first", name, repeats] => first(name, repeats),
+        ["table", name, columns, rows, repeats] => table(name, columns, rows, repeats),
         ["sweep", name, runs] => sweep_of(name, runs, true),
         ["sweep-without-estimate", name, runs] => sweep_of(name, runs, false),
         _ => {
@@ -223,6 +225,32 @@ fn first(name: &str, repeats: &str) -> Result<(), EngineError> {
         run.reset();
         for _ in 0..STEPS_OF_A_START {
             run.step()?;
+        }
+    }
+    Ok(())
+}
+
+/// Runs a scene from beginning to end with so many rows of these columns, so many times.
+fn table(name: &str, columns: &str, rows: &str, repeats: &str) -> Result<(), EngineError> {
+    let mut scene = scene(name)?;
+    let (columns, as_text) =
+        columns.strip_suffix(",text").map_or((columns, false), |columns| (columns, true));
+    scene.simulation.outputs = columns.split(',').filter_map(|word| word.parse().ok()).collect();
+    let mut run = Simulation::new(&scene)?;
+    let outputs = Outputs::new(&run);
+    let mut writer = RowWriter::new(&run, &outputs);
+    let rows: u32 = rows.parse().unwrap_or(1);
+    let (mut row, mut text) = (Vec::new(), Vec::new());
+    for _ in 0..repeats.parse().unwrap_or(1) {
+        run.reset();
+        for k in 0..rows {
+            run.advance_to(scene.simulation.duration * f64::from(k) / f64::from(rows - 1))?;
+            row.clear();
+            writer.write(&outputs.moment(&run), &mut row);
+            if as_text {
+                text.clear();
+                append_row(&mut text, &row);
+            }
         }
     }
     Ok(())
