@@ -6,7 +6,8 @@ export interface Shortcut {
   shown: string;
   /** What it does, as the help lists it. */
   does: string;
-  run: () => void;
+  /** `held` tells that the key was not pressed but is still down. */
+  run: (held: boolean) => void;
 }
 
 const active = new Map<string, Shortcut>();
@@ -77,7 +78,7 @@ addEventListener(
     if (!shortcut) return;
     event.preventDefault();
     event.stopImmediatePropagation();
-    shortcut.run();
+    shortcut.run(event.repeat);
   },
   { capture: true },
 );

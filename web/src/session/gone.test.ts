@@ -33,6 +33,11 @@ function state(id: string, time: number): object {
     changes: 0,
     links: { self, stream: `${self}/stream` },
     finished: false,
+    steps: 0,
+    duration: 10,
+    energy: 0,
+    position_violation: 0,
+    bodies: [],
   };
 }
 
@@ -104,4 +109,61 @@ test("a run whose server only does not answer yet is waited for", async () => {
   expect(session.latest?.id).toBe("AA-1");
   expect(asked.filter((name) => name.startsWith("POST"))).toHaveLength(1);
   expect(streams).toHaveLength(2);
+});
+
+/** The requests that were answered, each in a turn of its own. */
+async function settled(): Promise<void> {
+  for (let turn = 0; turn < 50; turn++) await Promise.resolve();
+  await new Promise((done) => setTimeout(done, 0));
+}
+
+test("what is pressed before the run is there, or while it answers, is done in order", async () => {
+  const asked = answering((request, body) => {
+    if (request.endsWith("POST /api/v1/sessions")) return [201, state("AA-1", 0)];
+    const by = (body as { steps?: number; seconds?: number } | null) ?? {};
+    return [200, state("AA-1", request.endsWith("step") ? 0.25 : (by.seconds ?? 0))];
+  });
+  const session = new Session({ builtin: "simple-pendulum" });
+  const started = session.start();
+  const steps = [session.step({ steps: 1 }), session.step({ seconds: 0.1 }), session.forward()];
+  session.lookFrom("side");
+  session.setSpeed(2);
+  void session.toggle();
+  void session.toggle();
+  void session.toggle();
+  await started;
+  await Promise.all(steps);
+  await settled();
+  expect(asked).toEqual([
+    'POST /api/v1/sessions {"builtin":"simple-pendulum"}',
+    'POST /api/v1/sessions/AA-1/step {"steps":1}',
+    'POST /api/v1/sessions/AA-1/step {"seconds":0.1}',
+    'POST /api/v1/sessions/AA-1/step {"steps":1}',
+    'PUT /api/v1/sessions/AA-1/camera {"from":"side"}',
+    'POST /api/v1/sessions/AA-1/play {"speed":2}',
+  ]);
+  expect(session.pending).toBe(false);
+});
+
+test("a time to run to is not forgotten before the run is there, nor is what is pressed lost with a run that is gone", async () => {
+  let servers = 0;
+  const asked = answering((request, body) => {
+    if (request.endsWith("POST /api/v1/sessions")) return [201, state(servers++ ? "BB-2" : "AA-1", 0)];
+    if (request.includes("AA-1")) return [410, GONE];
+    const { seconds = 0 } = (body ?? {}) as { seconds?: number };
+    return [200, state("BB-2", seconds)];
+  });
+  const session = new Session({ builtin: "simple-pendulum" });
+  const ran = session.goTo(2);
+  void session.step({ steps: 3 });
+  void session.step({ steps: 4 });
+  await session.start();
+  await settled();
+  await ran;
+  expect(asked.slice(1)).toEqual([
+    'POST /api/v1/sessions/AA-1/step {"steps":3}',
+    'POST /api/v1/sessions {"builtin":"simple-pendulum"}',
+    'POST /api/v1/sessions/BB-2/step {"steps":4}',
+    'POST /api/v1/sessions/BB-2/step {"seconds":2}',
+  ]);
 });

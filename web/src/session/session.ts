@@ -10,6 +10,7 @@ import { banner } from "../ui/notice";
 import { Clock } from "./clock";
 import { Connection } from "./connection";
 import type { Drawn, ReactionConvention } from "./events";
+import { type Kind, Presses } from "./presses";
 
 export class Session extends Clock {
   /** Name of the selected joint. */
@@ -36,8 +37,10 @@ export class Session extends Clock {
   private seenChanges = "";
   /** What is asked for before the run may go on; none if it may. */
   private gate: (() => void) | undefined;
-  private waiters: (() => void)[] = [];
-  private busy = false;
+  /** What was pressed waits for the run, and for what was pressed before. */
+  private readonly presses = new Presses(() => this.address !== undefined && !this.renewing);
+  /** The run was gone and begins anew. */
+  private renewing = false;
   private redrawing: "idle" | "busy" | "again" = "idle";
   /** The arrows that the server draws, as JSON. */
   private drawnAs = JSON.stringify({ on: "j", about: "joint", drawn: "all", marked: null });
@@ -99,6 +102,11 @@ export class Session extends Clock {
     this.emit("opened");
   }
 
+  /** Whether something that was pressed is not done yet. */
+  get pending(): boolean {
+    return this.presses.pending;
+  }
+
   /** Whether the run waits for something. */
   get held(): boolean {
     return this.gate !== undefined;
@@ -146,7 +154,7 @@ export class Session extends Clock {
     const run = this.address;
     if (!view || !run) return false;
     let sent = none();
-    await this.inTurn(async () => {
+    await this.presses.add("change", async () => {
       sent = between(this.numbers, to, view);
       if (isNone(sent)) return;
       this.toNewest();
@@ -161,27 +169,11 @@ export class Session extends Clock {
   async pull(pull: Drag | null): Promise<void> {
     const run = this.address;
     if (!run) return;
-    await this.inTurn(async () => {
+    await this.presses.add("change", async () => {
       this.toNewest();
       this.accept(pull ? await api.pull(run, pull) : await api.release(run));
       this.altered = true;
     });
-  }
-
-  /** Waits for its turn instead of being dropped, as a request by a key may be. */
-  private async inTurn(request: () => Promise<void>): Promise<void> {
-    while (this.busy) await new Promise<void>((done) => this.waiters.push(done));
-    this.busy = true;
-    try {
-      await request();
-    } finally {
-      this.free();
-    }
-  }
-
-  private free(): void {
-    this.busy = false;
-    for (const done of this.waiters.splice(0)) done();
   }
 
   private async readScene(): Promise<void> {
@@ -209,11 +201,11 @@ export class Session extends Clock {
     this.setPose(undefined);
     const state = this.latest;
     // What is recorded is shown again; only what is not is computed.
-    if (state && (this.reviewing || state.finished)) {
+    if (state && !this.presses.resets && (this.reviewing || state.finished)) {
       this.startReplay(this.cursor ?? 0);
       return Promise.resolve();
     }
-    return this.ask((run) => api.play(run, this.speed));
+    return this.ask("play", (run) => api.play(run, this.speed));
   }
 
   protected override replayEnded(): void {
@@ -227,18 +219,26 @@ export class Session extends Clock {
       this.announceState();
       return;
     }
-    await this.ask((run) => api.pause(run));
+    await this.ask("pause", (run) => api.pause(run));
     this.announceState();
   }
 
   toggle(): Promise<void> {
-    return this.moving ? this.pause() : this.play();
+    const moves = this.replaying || (this.presses.plays ?? this.moving);
+    return moves ? this.pause() : this.play();
   }
 
   async step(by: { steps: number } | { seconds: number }): Promise<void> {
     if (this.gate) return this.gate();
     this.toNewest();
-    await this.ask((run) => api.step(run, by));
+    if (this.presses.full) {
+      banner(t("More steps were asked for than can be done: the last one was left out."), {
+        label: t("Fine"),
+        run: () => banner(null),
+      });
+      return;
+    }
+    await this.ask("step", (run) => api.step(run, by));
     this.announceState();
   }
 
@@ -249,7 +249,7 @@ export class Session extends Clock {
 
   async reset(): Promise<void> {
     this.toNewest();
-    await this.ask(async (run) => {
+    await this.ask("reset", async (run) => {
       const state = await api.reset(run);
       this.past.clear();
       return state;
@@ -264,11 +264,14 @@ export class Session extends Clock {
 
   override setSpeed(speed: number): void {
     super.setSpeed(speed);
-    if (this.latest?.playing && !this.reviewing) void this.ask((run) => api.play(run, speed));
+    if ((this.presses.plays ?? this.latest?.playing) && !this.reviewing)
+      void this.ask("play", (run) => api.play(run, this.speed));
   }
 
   /** Runs up to a time ahead, or looks back at an earlier one. */
   async goTo(time: number): Promise<void> {
+    // Its turn comes when there is a run.
+    if (!this.latest) await this.presses.add("change", () => Promise.resolve());
     const state = this.latest;
     if (!state) return;
     if (time <= state.time) {
@@ -313,8 +316,7 @@ export class Session extends Clock {
   lookFrom(camera: Camera): void {
     this.camera = camera;
     this.emit("view");
-    const run = this.address;
-    if (run && this.controls) void this.ask(() => api.lookFrom(run, camera));
+    if (this.controls) void this.ask("camera", (run) => api.lookFrom(run, camera));
   }
 
   private arrows(): Pick<Drawing, "on" | "about" | "drawn" | "marked"> {
@@ -362,18 +364,19 @@ export class Session extends Clock {
     if (this.latest) this.connection.open();
   }
 
-  protected async ask(request: (run: string) => Promise<SessionState>): Promise<void> {
-    const run = this.address;
-    if (!run || this.busy) return;
-    this.busy = true;
-    try {
-      this.accept(await request(run));
-    } catch (error) {
-      if (error instanceof ApiError && error.gone) await this.recreate();
-      else this.emit("problem", error);
-    } finally {
-      this.free();
-    }
+  /** Asks the run in its turn: what is pressed before there is one, or while it answers, is not lost. */
+  private ask(kind: Kind, request: (run: string) => Promise<SessionState>): Promise<void> {
+    return this.presses.add(kind, async () => {
+      const run = this.address;
+      if (!run) return;
+      try {
+        this.accept(await request(run));
+      } catch (error) {
+        if (error instanceof ApiError && error.gone) return this.recreate();
+        this.presses.refused();
+        this.emit("problem", error);
+      }
+    });
   }
 
   protected accept(state: SessionState): void {
@@ -386,17 +389,18 @@ export class Session extends Clock {
     }
     this.latest = state;
     this.past.add(state);
-    if (`${state.id}@${state.changes}@${state.title}` !== this.seenChanges && !this.busy)
+    if (`${state.id}@${state.changes}@${state.title}` !== this.seenChanges && !this.presses.busy)
       void this.readScene();
     this.emit("shown");
     if (state.error && !before?.error) this.emit("problem", state.error);
     if (state.finished && before && !before.finished) this.announceState();
+    this.presses.go();
   }
 
   protected read(message: { type?: string }): void {
     if (message.type === "reset") this.begun();
     // A step asked for by HTTP may overtake its own echo on the socket.
-    if (message.type === "state" && !this.busy) this.accept(message as unknown as SessionState);
+    if (message.type === "state" && !this.presses.busy) this.accept(message as unknown as SessionState);
   }
 
   protected async comeBack(): Promise<"there" | "gone" | "silent"> {
@@ -417,6 +421,7 @@ export class Session extends Clock {
     this.connection.close();
     this.past.clear();
     this.toNewest();
+    this.renewing = true;
     try {
       this.latest = undefined;
       this.drawnAs = "";
@@ -441,6 +446,9 @@ export class Session extends Clock {
       });
     } catch (error) {
       this.emit("problem", error);
+    } finally {
+      this.renewing = false;
+      this.presses.go();
     }
   }
 

@@ -184,12 +184,18 @@ export class Transport {
   private bindKeys(): () => void {
     const { session } = this;
     return bind([
-      { keys: [" "], shown: t("space"), does: t("Play or pause"), run: () => void session.toggle() },
+      {
+        keys: [" "],
+        shown: t("space"),
+        does: t("Play or pause"),
+        run: (held) => !held && void session.toggle(),
+      },
       {
         keys: ["ArrowRight"],
         shown: "→",
         does: t("One integrator step, or the next moment while looking back"),
-        run: () => void session.forward(),
+        // A held key steps as fast as the run answers: steps do not pile up for when it is let go.
+        run: (held) => !(held && session.pending) && void session.forward(),
       },
       {
         keys: ["l", "L"],
@@ -203,14 +209,19 @@ export class Transport {
         does: t("Back to the moment before, without computing"),
         run: () => session.back(),
       },
-      { keys: ["."], shown: ".", does: t("Step by time"), run: () => this.stepTime() },
+      {
+        keys: ["."],
+        shown: ".",
+        does: t("Step by time"),
+        run: (held) => !(held && session.pending) && this.stepTime(),
+      },
       { keys: ["+", "="], shown: "+", does: t("Faster"), run: () => this.changeSpeed(1) },
       { keys: ["-"], shown: "−", does: t("Slower"), run: () => this.changeSpeed(-1) },
       {
         keys: ["Backspace"],
         shown: "Backspace",
         does: t("Back to the start"),
-        run: () => void session.reset(),
+        run: (held) => !held && void session.reset(),
       },
     ]);
   }
