@@ -3,22 +3,53 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._errors import refusal
 
-if TYPE_CHECKING:
-    from ._run import Run
-
 Floats = NDArray[np.float64]
 # Colours of bodies, that stay apart for colour-blind eyes too (Okabe and Ito): those of the moving pictures.
 COLOURS = [(0, 114, 178), (230, 159, 0), (0, 158, 115), (86, 180, 233), (204, 121, 167), (213, 94, 0)]
 
 
-def points(run: Run) -> tuple[dict[str, Floats], Floats]:
+class Reaction(Protocol):
+    """Where a joint acts, and on what."""
+
+    @property
+    def on(self) -> str: ...
+    @property
+    def point_at(self) -> Floats: ...
+
+
+class Motion(Protocol):
+    """Where a body is."""
+
+    @property
+    def position(self) -> Floats: ...
+    @property
+    def directors(self) -> Floats: ...
+
+
+class Shown(Protocol):
+    """What is shown of a run."""
+
+    scene: dict[str, Any]
+    bodies: list[str]
+    joints: list[str]
+    columns: list[str]
+    t: Floats
+    position: Floats
+
+    @property
+    def energy(self) -> Floats: ...
+    def body(self, name: str) -> Motion: ...
+    def reactions(self, joint: str, *, side: Literal["i", "j"]) -> Reaction: ...
+
+
+def points(run: Shown) -> tuple[dict[str, Floats], Floats]:
     """Where the joints hold each body, along its principal axes from its centre, m: (k, 3); and where they hold the ground."""
     found: dict[str, list[Floats]] = {name: [] for name in run.bodies}
     ground: list[Floats] = []
@@ -34,7 +65,7 @@ def points(run: Run) -> tuple[dict[str, Floats], Floats]:
     return {name: np.array(own).reshape(-1, 3) for name, own in found.items()}, np.array(ground).reshape(-1, 3)
 
 
-def viewer(run: Run, width: int, height: int) -> Any:
+def viewer(run: Shown, width: int, height: int) -> Any:
     """The viewer with the run in it."""
     try:
         import rerun as rr
@@ -49,7 +80,7 @@ def viewer(run: Run, width: int, height: int) -> Any:
     return Viewer(recording=recording, width=width, height=height)
 
 
-def log(run: Run, rr: Any, write: Callable[..., Any], send: Callable[..., Any]) -> None:
+def log(run: Shown, rr: Any, write: Callable[..., Any], send: Callable[..., Any]) -> None:
     """Hands the run over, by the functions `log` and `send_columns` of a recording."""
     held, ground = points(run)
     gravity = np.abs(run.scene.get("gravity", [0.0, 0.0, 0.0]))
