@@ -9,16 +9,25 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use triad_dynamics::state::BodyFrame;
 
-/// Greatest number of steps of the search.
+/// Greatest number of steps of the search, those that were taken back among them.
 const STEPS: usize = 300;
 /// Generalized force, relative to the largest force on a body, below which it counts as zero.
 const BALANCED: f64 = 1e-10;
 /// Stiffness, relative to the largest, below which the search takes none.
 const SOFTEST: f64 = 1e-9;
-/// Step, in lengths of the mechanism, that no stiffness is soft enough for: it is cut short to [`LARGEST`] in any case.
+/// Change of forces by a motion, relative to the largest, below which it changes none: what differences leave of zero.
+const UNFELT: f64 = 1e-7;
+/// Step, in lengths of the mechanism, that no stiffness is soft enough for: it is cut short in any case.
 const FARTHEST: f64 = 1e6;
-/// Largest step, relative to the length of the mechanism.
+/// Largest first step, relative to the length of the mechanism; those that lead on are followed by longer ones.
 const LARGEST: f64 = 0.2;
+/// Largest turn of a body in one step, rad.
+const LARGEST_TURN: f64 = 0.5;
+/// Steps shorter than this part of the length of the mechanism are taken as they are; shorter ones than its square mean that
+/// none leads on.
+const SHORT: f64 = 1e-6;
+/// Force along a step, as a part of that at its start, with which the end may push back: more means that the step went too far.
+const PUSHED_BACK: f64 = 0.5;
 
 /// A position of rest.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -42,7 +51,8 @@ pub struct Equilibrium {
 /// Finds a position of rest near the start, drivers and loads held at their start.
 ///
 /// Newton's method in the small motions of the mechanism, its stiffness made positive in every direction so that the
-/// search runs downhill: it comes to a stable position, unless it starts at an unstable one.
+/// search runs downhill: it comes to a stable position, unless it starts at an unstable one. A step after which the forces push
+/// back is taken again, shorter; after one that led on, longer ones are tried.
 ///
 /// # Errors
 ///
@@ -82,70 +92,152 @@ fn eigen(matrix: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
     (eigen.eigenvalues, eigen.eigenvectors)
 }
 
-/// Moves a stage to equilibrium.
-pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
-    stage.rest();
-    let length = stage.mechanism.system.length;
-    // What is left over where a further step leads to no numbers.
-    let mut last = (0.0, String::new());
-    let mut taken = STEPS;
-    for iterations in 0..STEPS {
-        stage.wanted.check()?;
+/// A held position with its small motions and the forces along them.
+struct Held {
+    basis: DMatrix<f64>,
+    /// Of the forces on bodies, the largest.
+    largest: f64,
+    /// The generalized force.
+    along: DVector<f64>,
+}
+
+impl Held {
+    fn new(stage: &mut Stage) -> Result<Self, AnalysisError> {
         let basis = stage.tangent()?;
         stage.rest();
         let force = stage.forces();
-        let along = basis.tr_mul(&force);
-        let residual = along.amax();
-        let multipliers = stage.accelerate().multipliers.solver_rows().to_vec();
-        let stiffness = stage.stiffness(&basis, &multipliers);
-        let (stiffnesses, motions) = eigen(&stiffness);
-        let stiffest = stiffnesses.amax();
-        if residual <= BALANCED * force.amax().max(f64::MIN_POSITIVE) {
-            stage.rest();
-            let least = stiffnesses.iter().fold(f64::INFINITY, |a, b| a.min(*b));
-            let clear = least.abs() > 1e-7 * stiffest;
-            let reactions = report(&stage.accelerate().multipliers, Convention::default());
-            return Ok(Equilibrium {
-                iterations,
-                residual,
-                least_stiffness: if least.is_finite() { least } else { 0.0 },
-                stable: if basis.ncols() == 0 { Some(true) } else { clear.then_some(least > 0.0) },
-                bodies: stage.frames(),
-                reactions: reactions.map_err(EngineError::from)?,
-            });
-        }
-        if !residual.is_finite() {
-            taken = iterations;
-            break;
-        }
-        last = (residual, stage.foremost(&(&basis * &along)));
-        let floor = (SOFTEST * stiffest).max(residual / (FARTHEST * length)).max(f64::MIN_POSITIVE);
-        let mut step = motions.tr_mul(&along);
-        for (x, stiffness) in step.iter_mut().zip(stiffnesses.iter()) {
-            *x /= stiffness.abs().max(floor);
-        }
-        let step = motions * step;
-        let size = step.norm();
-        let scale = if size > LARGEST * length { LARGEST * length / size } else { 1.0 };
-        let there = stage.moved(&(basis * step), scale);
-        let open = stage.assemble(there);
-        if open.is_nan() || open > 1e-6 {
-            taken = iterations + 1;
-            break;
-        }
+        Ok(Self { largest: force.amax(), along: basis.tr_mul(&force), basis })
     }
-    let (residual, body) = left_over(stage)?.unwrap_or(last);
-    Err(AnalysisError::NoEquilibrium { iterations: taken, residual, body })
+
+    /// Work of the forces for each unit of a motion, of which the part counts that the joints allow here.
+    fn push(&self, motion: &DVector<f64>, length: f64) -> f64 {
+        let mut measured = motion.clone();
+        measured.iter_mut().enumerate().filter(|(k, _)| k % 6 >= 3).for_each(|(_, x)| *x *= length * length);
+        self.along.dot(&self.basis.tr_mul(&measured))
+    }
 }
 
-/// The generalized force that is left at the held position, N, and the body that it acts on most; `None` where there are no numbers.
-fn left_over(stage: &mut Stage) -> Result<Option<(f64, String)>, AnalysisError> {
-    if !stage.q.iter().all(|x| x.is_finite()) {
-        return Ok(None);
-    }
-    let basis = stage.tangent()?;
+/// Moves a stage to equilibrium.
+pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
     stage.rest();
-    let along = basis.tr_mul(&stage.forces());
-    let body = stage.foremost(&(&basis * &along));
-    Ok(along.amax().is_finite().then(|| (along.amax(), body)))
+    let mut held = Held::new(stage)?;
+    let mut reach = LARGEST * stage.mechanism.system.length;
+    let mut steps = 0;
+    loop {
+        stage.wanted.check()?;
+        stage.rest();
+        let multipliers = stage.accelerate().multipliers.solver_rows().to_vec();
+        let stiffness = stage.stiffness(&held.basis, &multipliers);
+        let (stiffnesses, motions) = eigen(&stiffness);
+        let residual = held.along.amax();
+        if residual <= BALANCED * held.largest.max(f64::MIN_POSITIVE) {
+            return found(stage, &held, &stiffnesses, steps);
+        }
+        let next = if residual.is_finite() {
+            let step = downhill(&held, &stiffness, (&stiffnesses, &motions), stage.mechanism.system.length);
+            advance(stage, &held, &step, &mut reach, &mut steps)?
+        } else {
+            None
+        };
+        let Some(next) = next else {
+            let body = stage.foremost(&(&held.basis * &held.along));
+            return Err(AnalysisError::NoEquilibrium { iterations: steps, residual, body });
+        };
+        held = next;
+    }
+}
+
+/// The position of rest at which the stage is.
+fn found(
+    stage: &mut Stage,
+    held: &Held,
+    stiffnesses: &DVector<f64>,
+    iterations: usize,
+) -> Result<Equilibrium, AnalysisError> {
+    stage.rest();
+    let least = stiffnesses.iter().fold(f64::INFINITY, |a, b| a.min(*b));
+    let clear = least.abs() > 1e-7 * stiffnesses.amax();
+    let reactions = report(&stage.accelerate().multipliers, Convention::default());
+    Ok(Equilibrium {
+        iterations,
+        residual: held.along.amax(),
+        least_stiffness: if least.is_finite() { least } else { 0.0 },
+        stable: if stiffnesses.is_empty() { Some(true) } else { clear.then_some(least > 0.0) },
+        bodies: stage.frames(),
+        reactions: reactions.map_err(EngineError::from)?,
+    })
+}
+
+/// The step of Newton's method with all stiffnesses made positive.
+///
+/// Motions that change no force, such as the spin of a link about its own axis, are left out where nothing pushes along them: away
+/// from equilibrium the symmetric part of the stiffness couples them with motions that matter, by a stiffness below zero.
+fn downhill(
+    held: &Held,
+    stiffness: &DMatrix<f64>,
+    (stiffnesses, motions): (&DVector<f64>, &DMatrix<f64>),
+    length: f64,
+) -> DVector<f64> {
+    let stiffest = stiffnesses.amax();
+    let floor = (SOFTEST * stiffest).max(held.along.amax() / (FARTHEST * length)).max(f64::MIN_POSITIVE);
+    let divided = |mut along: DVector<f64>, stiffnesses: &DVector<f64>| {
+        for (x, stiffness) in along.iter_mut().zip(stiffnesses.iter()) {
+            *x /= stiffness.abs().max(floor);
+        }
+        along
+    };
+    let idle = if stiffnesses.min() > SOFTEST * stiffest { None } else { idle_and_felt(stiffness) };
+    let Some([idle, felt]) = idle else {
+        return motions * divided(motions.tr_mul(&held.along), stiffnesses);
+    };
+    let (stiffnesses, motions) = eigen(&felt.tr_mul(&(stiffness * &felt)));
+    let motions = felt * motions;
+    let step = &motions * divided(motions.tr_mul(&held.along), &stiffnesses);
+    let along = idle.tr_mul(&held.along);
+    if along.amax() <= BALANCED * held.largest { step } else { step + idle * (along / floor) }
+}
+
+/// Bases of the motions that change no force and of the others; `None` where all do.
+fn idle_and_felt(stiffness: &DMatrix<f64>) -> Option<[DMatrix<f64>; 2]> {
+    let (squares, motions) = eigen(&stiffness.tr_mul(stiffness));
+    let most = squares.amax() * UNFELT * UNFELT;
+    let (idle, felt): (Vec<usize>, Vec<usize>) = (0..squares.len()).partition(|&k| squares[k] <= most);
+    (!idle.is_empty()).then(|| [motions.select_columns(&idle), motions.select_columns(&felt)])
+}
+
+/// Takes a step, or as much of it as leads on: `reach` is how far that was thought to be, and is learned from. `None` where nothing
+/// does, or where all `steps` are used up; then the stage is where it was.
+fn advance(
+    stage: &mut Stage,
+    held: &Held,
+    step: &DVector<f64>,
+    reach: &mut f64,
+    steps: &mut usize,
+) -> Result<Option<Held>, AnalysisError> {
+    let length = stage.mechanism.system.length;
+    let (from, turns) = (stage.q.clone(), stage.turns());
+    let whole = &held.basis * step;
+    let size = step.norm();
+    let turn = (0..whole.len() / 6).fold(0.0f64, |a, body| a.max(whole.fixed_rows::<3>(6 * body + 3).norm()));
+    let there = held.along.dot(step);
+    while *steps < STEPS && *reach > SHORT * SHORT * length {
+        stage.wanted.check()?;
+        *steps += 1;
+        let scale = (*reach / size).min(LARGEST_TURN / turn.max(LARGEST_TURN)).min(1.0);
+        let open = stage.assemble(stage.moved(&whole, scale));
+        // Comparisons that are false for NaN as well.
+        if open <= 1e-6 && stage.q.iter().all(|x| x.is_finite()) {
+            let next = Held::new(stage)?;
+            let push = next.push(&whole, length);
+            if push >= -PUSHED_BACK * there || size * scale <= SHORT * length {
+                if scale < 1.0 && push > 0.0 {
+                    *reach = (2.0 * *reach).min(FARTHEST * length);
+                }
+                return Ok(Some(next));
+            }
+        }
+        stage.put_back(&from, &turns);
+        *reach = 0.25 * size * scale;
+    }
+    Ok(None)
 }

@@ -238,6 +238,19 @@ impl Stage {
         state.position_violation(system)
     }
 
+    /// Angles of joints at the held position, whole turns among them.
+    pub fn turns(&self) -> Vec<f64> {
+        self.mechanism.state.angles().iter().map(|angle| angle.value).collect()
+    }
+
+    /// Goes back to a position, with the angles of joints that it had.
+    pub fn put_back(&mut self, q: &[f64], turns: &[f64]) {
+        self.q.copy_from_slice(q);
+        self.mechanism.state.set_revolutions(turns.iter().copied());
+        self.place(q);
+        self.mechanism.state.commit_revolutions();
+    }
+
     /// −∂(generalized force)/∂(motion) along a basis, with multipliers held: the stiffness matrix at rest.
     pub fn stiffness(&mut self, basis: &DMatrix<f64>, multipliers: &[f64]) -> DMatrix<f64> {
         let length = self.mechanism.system.length;
