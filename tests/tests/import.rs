@@ -96,6 +96,50 @@ fn what_is_wrong_is_named_with_its_line() {
 }
 
 #[test]
+fn angles_and_displacements_count_from_the_zero_of_the_robot() {
+    let folder = tempfile::tempdir().unwrap();
+    let (side, out) = (folder.path().join("side.json"), folder.path().join("robot.json"));
+    let motion = json!({"kind": "ramp", "start": 0.3, "rate": -1.5});
+    let with = json!({
+        "positions": {"lead": 0.3}, "velocities": {"lead": -1.5}, "gravity": [0, 0, 0],
+        "drivers": [{"name": "motor", "type": "angle", "joint": "lead", "motion": motion}]
+    });
+    std::fs::write(&side, with.to_string()).unwrap();
+    let import = |urdf: &str| {
+        let done = run(&["import", urdf, "--with", side.to_str().unwrap(), "--out", out.to_str().unwrap()]);
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        let options = ["--outputs", "joints", "--until", "1", "--every", "1", "--out", "-"];
+        let done = run(&[&["run", out.to_str().unwrap()], &options[..]].concat());
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        let table = String::from_utf8(done.stdout).unwrap();
+        let mut lines = table.lines().filter(|line| !line.starts_with('#'));
+        let names: Vec<String> = lines.next().unwrap().split(',').map(str::to_owned).collect();
+        let rows: Vec<Vec<f64>> =
+            lines.map(|line| line.split(',').map(|number| number.parse().unwrap()).collect()).collect();
+        move |name: &str| -> [f64; 2] {
+            let at = names.iter().position(|known| known.starts_with(name)).unwrap();
+            [rows[0][at], rows[rows.len() - 1][at]]
+        }
+    };
+    let near = |[a, b]: [f64; 2], [c, d]: [f64; 2]| assert!((a - c).abs() + (b - d).abs() < 1e-9, "{a} {b}");
+    let columns = import(&data("problems/mimic/mimic.urdf"));
+    near(columns("lead.angle"), [0.3, -1.2]);
+    near(columns("follow.angle"), [1.1, -1.9]);
+    // A slide, which starts 0.2 m from the robot's zero.
+    let slide = folder.path().join("slide.urdf");
+    let inertia = "<inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/>";
+    let robot = format!(
+        "<robot name=\"rail\"><link name=\"base\"/><link name=\"cart\"><inertial><mass value=\"1\"/>{inertia}</inertial></link>\
+         <joint name=\"rail\" type=\"prismatic\"><parent link=\"base\"/><child link=\"cart\"/><origin xyz=\"0 0 2\"/>\
+         <axis xyz=\"1 0 0\"/></joint></robot>"
+    );
+    std::fs::write(&slide, robot).unwrap();
+    let with = json!({"positions": {"rail": 0.2}, "velocities": {"rail": 0.5}, "gravity": [0, 0, 0]});
+    std::fs::write(&side, with.to_string()).unwrap();
+    near(import(slide.to_str().unwrap())("rail.slide"), [0.2, 0.7]);
+}
+
+#[test]
 fn a_joint_that_follows_another_stands_where_multiplier_and_offset_put_it() {
     let folder = tempfile::tempdir().unwrap();
     let side = folder.path().join("side.json");

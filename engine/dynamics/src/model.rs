@@ -16,6 +16,7 @@ mod joint;
 mod joint_keys;
 mod load;
 mod marker;
+mod meshing;
 mod output;
 mod parameter;
 mod placement;
@@ -109,7 +110,8 @@ impl Model {
         }
         // Joints and drivers share one space of names: both label rows.
         let mut row_names = HashMap::new();
-        let (joints, starts) = read_joints(scene, &names, &bodies, &mut row_names, &mut notes)?;
+        let (joints, mut starts) = read_joints(scene, &names, &bodies, &mut row_names, &mut notes)?;
+        meshing::pass_on(&joints, &mut starts)?;
         placement::place(&mut bodies, &joints, &starts, &mut notes);
         let reader = |list, index, name| ModelReader {
             list,

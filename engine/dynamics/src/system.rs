@@ -43,6 +43,7 @@ use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
 use crate::system::row_builder::{ConstraintBlock, LabelledForm, RowBuilder};
 use nalgebra::Vector3;
+use std::collections::HashMap;
 use std::ops::{Index, Range};
 use std::sync::Arc;
 
@@ -328,13 +329,16 @@ impl System {
         self.bodies.iter().any(|b| b.regularizing_inertia > 0.0)
     }
 
-    /// The angles of joints that whole turns are counted from at the start: those that the author gives, or zero.
+    /// The angles of joints that whole turns are counted from at the start: those that the author gives, or those where the
+    /// bodies are stated.
     pub fn start_angles(&self) -> impl Iterator<Item = f64> + use<'_> {
         let model = &self.model;
-        self.angle_joints.iter().map(|name| {
-            let given = model.starts.iter().find(|start| model.joints[start.joint].name == *name);
-            given.and_then(|start| start.angle).unwrap_or(0.0)
-        })
+        let mut known: HashMap<&str, f64> = HashMap::new();
+        let stated = model.joints.iter().filter(|joint| joint.stated != 0.0);
+        known.extend(stated.map(|joint| (joint.name.as_str(), joint.stated)));
+        let given = model.starts.iter().filter_map(|start| Some((start.joint, start.angle?)));
+        known.extend(given.map(|(joint, angle)| (model.joints[joint].name.as_str(), angle)));
+        self.angle_joints.iter().map(move |name| known.get(name.as_str()).copied().unwrap_or(0.0))
     }
 
     /// Writes the start of the model as (q, q̇), each of [`System::coordinates`] numbers.

@@ -24,8 +24,8 @@ struct Placed<'a> {
     pose: Isometry3<f64>,
     velocity: Vector3<f64>,
     spin: Vector3<f64>,
-    /// The joint that carries it.
-    joint: Option<&'a UrdfJoint>,
+    /// The joint that carries it, and its position.
+    joint: Option<(&'a UrdfJoint, f64)>,
     /// The body that it is part of, and its frame in that of the body.
     carrier: Carrier,
 }
@@ -194,7 +194,7 @@ fn moved<'a>(
     } else {
         return Err(without_mass(link));
     };
-    Ok(Placed { link, pose, velocity, spin, joint: Some(joint), carrier })
+    Ok(Placed { link, pose, velocity, spin, joint: Some((joint, position)), carrier })
 }
 
 /// A shift as a motion.
@@ -280,7 +280,7 @@ fn shape(visual: &Visual, frame: &Isometry3<f64>) -> Option<Shape> {
 }
 
 fn add_joint(scene: &mut Scene, placed: &Placed, all: &[Placed], left_out: &mut Vec<OmittedItem>) {
-    let Some(joint) = placed.joint else { return };
+    let Some((joint, position)) = placed.joint else { return };
     let Some(parent) = all.iter().find(|other| other.link.name == joint.parent) else { return };
     if parent.carrier.name == placed.carrier.name {
         return;
@@ -301,6 +301,8 @@ fn add_joint(scene: &mut Scene, placed: &Placed, all: &[Placed], left_out: &mut 
     }
     if kind == JointKind::Revolute {
         written = written.rows(AxisRows::TwoCar);
+        // The robot's zero, not the start, is where its angle is counted from.
+        written.stated_angle = (position != 0.0).then_some(position);
     }
     scene.add(written);
     add_friction(scene, joint, left_out);
@@ -328,11 +330,13 @@ fn add_friction(scene: &mut Scene, joint: &UrdfJoint, left_out: &mut Vec<Omitted
 /// Joints that follow others.
 fn add_gears(scene: &mut Scene, robot: &Robot, left_out: &mut Vec<OmittedItem>) {
     for joint in &robot.joints {
-        let Some((leader, factor, _)) = &joint.mimic else { continue };
+        let Some((leader, factor, offset)) = &joint.mimic else { continue };
         let turns = |name: &str| scene.joints.iter().any(|j| j.name == name && j.kind == JointKind::Revolute);
         if turns(leader) && turns(&joint.name) {
             let name = format!("{} follows {leader}", joint.name);
-            scene.add(Joint::gear(name, leader, &joint.name, *factor));
+            let mut gear = Joint::gear(name, leader, &joint.name, *factor);
+            gear.offset = (*offset != 0.0).then_some(*offset);
+            scene.add(gear);
         } else {
             let there = robot.joints.iter().any(|joint| joint.name == *leader);
             let why =

@@ -13,7 +13,8 @@ use triad_scene::{Driver, Joint, Load, Settings};
 pub struct SideCar {
     /// Whether the root link is the ground or moves freely.
     pub root: Root,
-    /// Positions of joints at the start, by name: rad or m. One that follows another by `<mimic>` needs none.
+    /// Positions of joints at the start, by name, from the robot's zero, from which drivers, springs, events and tables count as well:
+    /// rad or m. One that follows another by `<mimic>` needs none.
     pub positions: BTreeMap<String, f64>,
     /// Velocities of joints at the start, by name: rad/s or m/s.
     pub velocities: BTreeMap<String, f64>,

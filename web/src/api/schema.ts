@@ -858,7 +858,7 @@ export interface components {
         } | {
             /** @description The joint. */
             joint: string;
-            /** @description Angle of body j relative to body i about the axis, from that at the start, rad. */
+            /** @description Angle of body j relative to body i about the axis, from where the joint's angle is zero, rad. */
             motion: components["schemas"]["Motion"];
             /** @description Unique name. */
             name: string;
@@ -1483,6 +1483,11 @@ export interface components {
             name: string;
             /**
              * Format: double
+             * @description Angle of a gear's second joint where that of its first is zero, rad; without it, zero.
+             */
+            offset?: number | null;
+            /**
+             * Format: double
              * @description Advance of a screw, m a turn; positive for a right-handed thread.
              */
             pitch?: number | null;
@@ -1526,6 +1531,11 @@ export interface components {
             rows?: components["schemas"]["AxisRows"] | null;
             /** @description Where the joint stands at the start, and how fast it moves there, in place of positions and velocities of bodies. */
             start?: components["schemas"]["JointStart"] | null;
+            /**
+             * Format: double
+             * @description Angle of a revolute joint where the bodies are stated, rad, from which it is counted; without it, zero.
+             */
+            stated_angle?: number | null;
             /** @description What it is. */
             type: components["schemas"]["JointKind"];
         };
@@ -1590,8 +1600,8 @@ export interface components {
             rows: components["schemas"]["Multiplier"][];
         };
         /**
-         * @description Where a joint stands at the start, and how fast it moves. The stated positions of the bodies are those at the angle 0;
-         *     the bodies that hang on the joint are carried from there, and loops are closed with what is given here held.
+         * @description Where a joint stands at the start, and how fast it moves. The stated positions of the bodies are those at the angle 0 or at
+         *     `stated_angle`; the bodies that hang on the joint are carried from there, and loops are closed with what is given here held.
          */
         JointStart: {
             /**
@@ -4729,7 +4739,8 @@ export interface components {
              */
             loads?: components["schemas"]["Load"][];
             /**
-             * @description Positions of joints at the start, by name: rad or m. One that follows another by `<mimic>` needs none.
+             * @description Positions of joints at the start, by name, from the robot's zero, from which drivers, springs, events and tables count as well:
+             *     rad or m. One that follows another by `<mimic>` needs none.
              * @default {}
              */
             positions?: {

@@ -5,7 +5,7 @@ use super::joint_keys::{AxisKeys, KnownKeys, OwnKeys, PointKeys, refuse_stranger
 use super::reader::ModelReader;
 use super::{BodyRef, ModelError};
 use crate::scene::{AxisRows, Coordinates, Joint, JointKind};
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 use triad_linalg::orthonormal_basis;
 
 /// Greatest difference of |component| from 1 at which a unit axis lies along a director: rounding of an axis that was turned
@@ -52,12 +52,14 @@ pub enum JointGeometry {
     PointOnLine,
     /// The point of body j stays in the plane of body i through its point, normal to the axis.
     PointInPlane,
-    /// The angle of one revolute joint is a multiple of that of another.
+    /// The angle of one revolute joint is a multiple of that of another, or that far from one.
     Gear {
         /// The two joints.
         joints: [usize; 2],
         /// Angle of the second for each radian of the first.
         ratio: f64,
+        /// Angle of the second where that of the first is zero, rad.
+        offset: f64,
     },
 }
 
@@ -135,6 +137,8 @@ pub struct ModelJoint {
     /// Two vectors across the axis on body i and the vectors on body j that coincide with them at the start; with
     /// the axis they are right-handed. The angle of the joint is that from the first on i to the first on j.
     pub cross: [[Vector3<f64>; 2]; 2],
+    /// The angle where the bodies are stated, rad: the vectors on body j are turned by it.
+    pub stated: f64,
 }
 
 impl ModelJoint {
@@ -175,12 +179,15 @@ impl ModelJoint {
             JointKind::PointInPlane => JointGeometry::PointInPlane,
             JointKind::Gear => return gear(joint, reader),
         };
-        let cross = if axes[0] == Vector3::zeros() {
-            [[Vector3::zeros(); 2]; 2]
-        } else {
-            cross_vectors(reader, bodies, axes)
-        };
-        Ok(Self { name: joint.name.clone(), geometry, bodies, points, axes, cross })
+        let stated = reader.number("stated_angle", joint.stated_angle.unwrap_or(0.0), -1e6, 1e6)?;
+        let mut cross = [[Vector3::zeros(); 2]; 2];
+        if axes[0] != Vector3::zeros() {
+            cross = cross_vectors(reader, bodies, axes);
+        }
+        if stated != 0.0 {
+            cross[1] = cross[1].map(|b| Rotation3::from_scaled_axis(axes[1] * stated) * b);
+        }
+        Ok(Self { name: joint.name.clone(), geometry, bodies, points, axes, cross, stated })
     }
 
     /// What the author calls it.
@@ -289,6 +296,7 @@ fn gear(joint: &Joint, reader: &ModelReader) -> Result<ModelJoint, ModelError> {
     };
     let ratio = joint.ratio.ok_or_else(|| reader.wrong("ratio", "a gear needs a ratio"))?;
     let ratio = reader.number("ratio", ratio, -1e6, 1e6)?;
+    let offset = reader.number("offset", joint.offset.unwrap_or(0.0), -1e6, 1e6)?;
     let pair = [reader.joint(first, &[JointKind::Revolute])?, reader.joint(second, &[JointKind::Revolute])?];
     if pair[0] == pair[1] {
         return Err(reader.wrong("joints", "a gear couples two different joints"));
@@ -297,11 +305,12 @@ fn gear(joint: &Joint, reader: &ModelReader) -> Result<ModelJoint, ModelError> {
     let [of_a, of_b] = wheels([a.bodies, b.bodies]);
     Ok(ModelJoint {
         name: joint.name.clone(),
-        geometry: JointGeometry::Gear { joints: pair, ratio },
+        geometry: JointGeometry::Gear { joints: pair, ratio, offset },
         bodies: [a.bodies[of_a], b.bodies[of_b]],
         points: [a.points[of_a], b.points[of_b]],
         axes: [a.axes[of_a], b.axes[of_b]],
         cross: [[Vector3::zeros(); 2]; 2],
+        stated: 0.0,
     })
 }
 

@@ -35,13 +35,13 @@ pub(super) enum AxisKeys {
 pub(super) enum OwnKeys {
     /// None.
     None,
-    /// `rows`.
+    /// `rows` and `stated_angle`.
     Rows,
     /// `length`.
     Length,
     /// `pitch`.
     Pitch,
-    /// `joints` and `ratio` in place of two bodies.
+    /// `joints`, `ratio` and perhaps `offset` in place of two bodies.
     Gear,
 }
 
@@ -106,10 +106,12 @@ pub(super) fn refuse_strangers(
     let no_bodies = (keys.own == OwnKeys::Gear).then_some("a gear names two joints, not two bodies");
     let rules = [
         ("rows", joint.rows.is_some(), only(OwnKeys::Rows, "only a revolute joint chooses its rows")),
+        ("stated_angle", joint.stated_angle.is_some(), only(OwnKeys::Rows, "only a revolute joint has one")),
         ("length", joint.length.is_some(), only(OwnKeys::Length, "only a rod has a length")),
         ("pitch", joint.pitch.is_some(), only(OwnKeys::Pitch, "only a screw has a pitch")),
         ("joints", joint.joints.is_some(), only(OwnKeys::Gear, "only a gear couples two joints")),
         ("ratio", joint.ratio.is_some(), only(OwnKeys::Gear, "only a gear has a ratio")),
+        ("offset", joint.offset.is_some(), only(OwnKeys::Gear, "only a gear has an offset")),
         ("point", has_point, no_point),
         ("axis", has_axis, no_axis),
         ("body_i", named, no_bodies),

@@ -1,6 +1,6 @@
 //! Starts that are given by joints: bodies are placed along the tree of joints, from the ground outwards.
 //!
-//! The positions that a scene states are where the joints have the angle 0. A joint with a start carries all bodies that
+//! The positions that a scene states are where the joints have the angle 0, or the one that is told of them. A joint with a start carries all bodies that
 //! hang on it. Joints that close loops are left open here: `constraints::start` closes them.
 
 use super::reader::ModelReader;
@@ -20,7 +20,7 @@ const KEPT: f64 = 1e-6;
 pub struct ModelStart {
     /// The joint.
     pub joint: usize,
-    /// Its angle, from the stated positions of the bodies, rad.
+    /// Its angle, rad.
     pub angle: Option<f64>,
     /// The rate of its angle, rad/s.
     pub rate: Option<f64>,
@@ -184,7 +184,7 @@ fn carry(
     let axis = parent.by * (at_start(bodies, joint.bodies[side]).rotation * joint.axes[side]);
     let pivot = (parent.by * point(side)).coords;
     let stated = (at_start(bodies, joint.bodies[0]).rotation * joint.axes[0]).dot(&(point(1) - point(0)));
-    let angle = start.angle.unwrap_or(0.0);
+    let angle = start.angle.map_or(0.0, |angle| angle - joint.stated);
     let (slide, speed) = match joint.geometry {
         JointGeometry::Screw { pitch } => (angle * pitch - stated, start.rate.map(|rate| rate * pitch)),
         _ => (start.slide.map_or(0.0, |slide| slide - stated), start.speed),

@@ -52,10 +52,10 @@ pub fn build(model: &Model, joint: &ModelJoint, builder: &mut RowBuilder) {
         JointGeometry::Rod { length } => vec![LabelledForm::new("DIST", distance(joint, length, builder))],
         JointGeometry::PointOnLine => on_line(joint, builder).collect(),
         JointGeometry::PointInPlane => vec![in_plane(joint, builder)],
-        JointGeometry::Gear { joints, ratio } => {
+        JointGeometry::Gear { joints, ratio, offset } => {
             let [first, second] = joints.map(|index| builder.angle(&model.joints[index]));
             let angles = [Some((first, -ratio)), Some((second, 1.0))];
-            let form = Form::Relation { angles, slide: None, constant: 0.0 };
+            let form = Form::Relation { angles, slide: None, constant: offset };
             vec![LabelledForm::new("GEAR", form)]
         }
     };

@@ -139,6 +139,7 @@ fn pin(name: String, place: usize, model: &Model) -> ModelJoint {
         points: [body.position, Vector3::zeros()],
         axes: [z, on_body(&z)],
         cross: [[x, y], [on_body(&x), on_body(&y)]],
+        stated: 0.0,
     }
 }
 

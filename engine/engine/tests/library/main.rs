@@ -8,6 +8,7 @@ mod catalogue;
 mod counting;
 mod custom_loads;
 mod examples;
+mod gears;
 mod hanging;
 mod kinematics;
 mod kinematics_in_space;

@@ -33,13 +33,13 @@ pub enum Driver {
         /// Its direction in the world: `fixed` or `turning` unit vectors.
         motion: VectorMotion,
     },
-    /// The angle of a revolute or cylindrical joint, from its start, of either sign and any number of turns.
+    /// The angle of a revolute or cylindrical joint, of either sign and any number of turns.
     Angle {
         /// Unique name.
         name: String,
         /// The joint.
         joint: String,
-        /// Angle of body j relative to body i about the axis, from that at the start, rad.
+        /// Angle of body j relative to body i about the axis, from where the joint's angle is zero, rad.
         motion: Motion,
     },
     /// The displacement of a prismatic or cylindrical joint along its axis.

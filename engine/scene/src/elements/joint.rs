@@ -101,8 +101,8 @@ pub enum AxisRows {
     Shared,
 }
 
-/// Where a joint stands at the start, and how fast it moves. The stated positions of the bodies are those at the angle 0;
-/// the bodies that hang on the joint are carried from there, and loops are closed with what is given here held.
+/// Where a joint stands at the start, and how fast it moves. The stated positions of the bodies are those at the angle 0 or at
+/// `stated_angle`; the bodies that hang on the joint are carried from there, and loops are closed with what is given here held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct JointStart {
@@ -178,6 +178,12 @@ pub struct Joint {
     /// Angle of a gear's second joint for each radian of its first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ratio: Option<f64>,
+    /// Angle of a gear's second joint where that of its first is zero, rad; without it, zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub offset: Option<f64>,
+    /// Angle of a revolute joint where the bodies are stated, rad, from which it is counted; without it, zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stated_angle: Option<f64>,
     /// Where the joint stands at the start, and how fast it moves there, in place of positions and velocities of bodies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<JointStart>,
@@ -209,6 +215,8 @@ impl Joint {
             pitch: None,
             joints: None,
             ratio: None,
+            offset: None,
+            stated_angle: None,
             start: None,
         }
     }

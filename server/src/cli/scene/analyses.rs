@@ -10,6 +10,7 @@ use triad_engine::run::Simulation;
 use triad_engine::state::BodyFrame;
 
 use super::source::Source;
+use super::worth::{Judged, Worth};
 use crate::cli::clock::{Clock, Timed};
 use crate::cli::terminal::{Outcome, print_json, print_line};
 use crate::problem::Problem;
@@ -98,12 +99,14 @@ pub(in crate::cli) fn reactions(
         return Err(EngineError::TimeOutside { time: at, from: 0.0, to: simulation.time() }.into());
     }
     let report = simulation.reactions(words.convention())?;
+    let worth = Worth::of(&simulation);
     clock.lap("solve");
     if json {
-        print_json(&Timed { answer: &report, seconds: &clock });
+        print_json(&Timed { answer: &Judged { report: &report, worth }, seconds: &clock });
     } else {
         print_line(&format!("{}: reactions at t = {} s", scene.name, report.time));
         print_reactions(&report);
+        worth.print();
     }
     Ok(Outcome::Done)
 }

@@ -8,3 +8,4 @@ mod report;
 pub(in crate::cli) mod run;
 pub(in crate::cli) mod source;
 mod table;
+mod worth;

@@ -1,0 +1,107 @@
+//! Starts that gears pass on: where one of two coupled joints stands says where the other one does, however many turns that is.
+
+use super::{JointGeometry, ModelError, ModelJoint, ModelStart};
+use std::f64::consts::PI;
+
+/// Relative difference up to which stated angles fit a gear: what rounding leaves of them.
+const FITS: f64 = 1e-9;
+
+/// θ₂ = ratio θ₁ + offset of joint `index`.
+#[derive(Clone, Copy)]
+struct Mesh {
+    index: usize,
+    joints: [usize; 2],
+    ratio: f64,
+    offset: f64,
+}
+
+/// Adds the angles that gears give to joints without one.
+///
+/// # Errors
+///
+/// [`ModelError::Geometry`]: angles at the start of two joints, more than half a turn from what a gear says of them.
+pub(super) fn pass_on(joints: &[ModelJoint], starts: &mut Vec<ModelStart>) -> Result<(), ModelError> {
+    let meshes: Vec<Mesh> = joints
+        .iter()
+        .enumerate()
+        .filter_map(|(index, joint)| {
+            let JointGeometry::Gear { joints, ratio, offset } = joint.geometry else { return None };
+            Some(Mesh { index, joints, ratio, offset })
+        })
+        .collect();
+    if meshes.is_empty() {
+        return Ok(());
+    }
+    let mut of_joint: Vec<Vec<Mesh>> = vec![Vec::new(); joints.len()];
+    for mesh in &meshes {
+        mesh.joints.iter().for_each(|&joint| of_joint[joint].push(*mesh));
+    }
+    let mut angles: Vec<Option<f64>> = vec![None; joints.len()];
+    for start in starts.iter() {
+        angles[start.joint] = start.angle;
+    }
+    let mut reached: Vec<usize> = (0..joints.len()).filter(|&joint| angles[joint].is_some()).collect();
+    let mut apart = meshes.iter().filter(|mesh| {
+        let [first, second] = mesh.joints.map(|joint| joints[joint].stated);
+        (mesh.told(first) - second).abs() > FITS * second.abs().max(1.0)
+    });
+    loop {
+        while let Some(joint) = reached.pop() {
+            for mesh in &of_joint[joint] {
+                reached.extend(mesh.pass(joints, &mut angles)?);
+            }
+        }
+        // Where nothing is given the first joint stays where it is stated.
+        let Some(mesh) = apart.find(|mesh| mesh.joints.iter().all(|&joint| angles[joint].is_none())) else {
+            break;
+        };
+        angles[mesh.joints[0]] = Some(joints[mesh.joints[0]].stated);
+        reached.push(mesh.joints[0]);
+    }
+    for (joint, angle) in angles.into_iter().enumerate().filter(|(_, angle)| angle.is_some()) {
+        match starts.iter_mut().find(|start| start.joint == joint) {
+            Some(start) => start.angle = angle,
+            None => starts.push(ModelStart { joint, angle, rate: None, slide: None, speed: None }),
+        }
+    }
+    Ok(())
+}
+
+impl Mesh {
+    /// The angle of the second joint for one of the first.
+    fn told(&self, first: f64) -> f64 {
+        self.ratio * first + self.offset
+    }
+
+    /// Gives one of the two joints the angle that follows from that of the other. Returns it, if it had none.
+    fn pass(&self, joints: &[ModelJoint], angles: &mut [Option<f64>]) -> Result<Option<usize>, ModelError> {
+        let [first, second] = self.joints;
+        match (angles[first], angles[second]) {
+            (Some(leads), Some(follows)) => {
+                let told = self.told(leads);
+                if (follows - told).abs() <= PI {
+                    return Ok(None);
+                }
+                let names = [first, second].map(|joint| &joints[joint].name);
+                Err(ModelError::Geometry {
+                    element: format!("joint \"{}\"", joints[self.index].name),
+                    pointer: format!("/joints/{}", self.index),
+                    reason: format!(
+                        "with \"{}\" at {leads} rad at the start \"{}\" is at {told} rad, but stands at {follows} rad: leave the \
+                         start of one of them out, or give the gear an \"offset\"",
+                        names[0], names[1]
+                    ),
+                })
+            }
+            (Some(leads), None) => {
+                angles[second] = Some(self.told(leads));
+                Ok(Some(second))
+            }
+            (None, Some(follows)) if self.ratio != 0.0 => {
+                angles[first] = Some((follows - self.offset) / self.ratio);
+                Ok(Some(first))
+            }
+            (None, _) => Ok(None),
+        }
+    }
+}

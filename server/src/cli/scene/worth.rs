@@ -1,0 +1,51 @@
+//! What reactions at a moment of a run are worth.
+
+use serde::Serialize;
+use triad_engine::reactions::report::ReactionReport;
+use triad_engine::run::{ReactionErrors, Simulation};
+
+use crate::cli::terminal::print_line;
+
+/// Reactions with what they are worth.
+#[derive(Serialize)]
+pub(super) struct Judged<'a> {
+    #[serde(flatten)]
+    pub report: &'a ReactionReport,
+    #[serde(flatten)]
+    pub worth: Worth,
+}
+
+/// What the run up to a moment says of the reactions there.
+#[derive(Serialize)]
+pub(super) struct Worth {
+    /// The largest errors; none where they are not known.
+    reaction_errors: Option<ReactionErrors>,
+    /// From when on the error is not known, s.
+    error_unknown_from: Option<f64>,
+    /// What speaks against the state.
+    doubts: Vec<String>,
+}
+
+impl Worth {
+    /// At the present of a run.
+    pub fn of(simulation: &Simulation) -> Self {
+        let reaction_errors = simulation.reaction_errors();
+        let summary = simulation.summary();
+        Self { reaction_errors, error_unknown_from: summary.error_unknown_from, doubts: summary.doubts }
+    }
+
+    /// For people.
+    pub fn print(&self) {
+        let line = match (self.reaction_errors, self.error_unknown_from) {
+            (Some(e), _) => {
+                format!("forces right to about {:.0e} N, moments to {:.0e} N m", e.force, e.moment)
+            }
+            (None, Some(time)) => format!("from t = {time:.6} s on unknown"),
+            (None, None) => "switched off".to_owned(),
+        };
+        print_line(&format!("  error: {line}"));
+        for doubt in &self.doubts {
+            print_line(&format!("  doubt: {doubt}"));
+        }
+    }
+}
