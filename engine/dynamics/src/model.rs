@@ -38,6 +38,15 @@ use nalgebra::Vector3;
 use reader::ModelReader;
 use std::collections::HashMap;
 
+/// Greatest length, velocity or angular velocity that a scene may state, SI units: galaxies are within 1e22 m. With
+/// [`MAX_MASS`] even the square of a moment of inertia stays far below the largest number.
+const MAX_LENGTH: f64 = 1e30;
+/// Greatest and least mass of a body, kg: electrons have 1e-30, all that is to be seen of the universe 1e53.
+const MAX_MASS: f64 = 1e60;
+const MIN_MASS: f64 = 1e-60;
+/// Greatest moment of inertia, kg m².
+const MAX_INERTIA: f64 = 1e100;
+
 /// A body by its place in the model, or the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum BodyRef {
@@ -206,6 +215,18 @@ fn unique_name(
     }
     match names.insert(name.to_owned(), index) {
         Some(first) => Err(ModelError::DuplicateName { list, index, first, name: name.to_owned() }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses infinities, NaN, and numbers above `most`, which products of masses and lengths would carry out of the range of
+/// arithmetic.
+fn within(values: &[f64], most: f64, pointer: &str) -> Result<(), ModelError> {
+    finite(values, pointer)?;
+    match values.iter().find(|x| x.abs() > most) {
+        Some(&value) => {
+            Err(ModelError::OutOfRange { pointer: pointer.to_owned(), value, low: -most, high: most })
+        }
         None => Ok(()),
     }
 }

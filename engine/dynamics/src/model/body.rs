@@ -1,6 +1,6 @@
 //! A body with its centre of mass, principal axes and start.
 
-use super::{ModelError, finite};
+use super::{MAX_INERTIA, MAX_LENGTH, MAX_MASS, MIN_MASS, ModelError, finite, within};
 use crate::scene::{Body, Coordinates, Inertia, Orientation, Triple, WrittenOrientation};
 use nalgebra::{Matrix3, Quaternion, SymmetricEigen, Unit, UnitQuaternion, Vector3};
 
@@ -51,7 +51,7 @@ impl ModelBody {
             ("angular_velocity", body.angular_velocity),
         ];
         for (key, vector) in vectors {
-            finite(&vector, &at(key))?;
+            within(&vector, MAX_LENGTH, &at(key))?;
         }
         check_mass(body, body.mass, &at("mass"))?;
         let Composite { mass, center_of_mass, principal, principal_axes } = Composite::of(body, &at, notes)?;
@@ -115,10 +115,14 @@ impl ModelBody {
 
 fn check_mass(body: &Body, mass: f64, pointer: &str) -> Result<(), ModelError> {
     finite(&[mass], pointer)?;
-    if mass > 0.0 {
-        return Ok(());
+    let (low, high) = (MIN_MASS, MAX_MASS);
+    if mass <= 0.0 {
+        return Err(ModelError::Mass { body: body.name.clone(), pointer: pointer.to_owned(), mass });
     }
-    Err(ModelError::Mass { body: body.name.clone(), pointer: pointer.to_owned(), mass })
+    if !(low..=high).contains(&mass) {
+        return Err(ModelError::OutOfRange { pointer: pointer.to_owned(), value: mass, low, high });
+    }
+    Ok(())
 }
 
 /// Mass, centre of mass and principal axes of a body with all that is attached to it.
@@ -142,7 +146,7 @@ impl Composite {
         for (index, attached) in body.attached.iter().enumerate() {
             let at = |key: &str| at(&format!("attached/{index}/{key}"));
             check_mass(body, attached.mass, &at("mass"))?;
-            finite(&attached.point, &at("point"))?;
+            within(&attached.point, MAX_LENGTH, &at("point"))?;
             let (moments, axes) = principal_inertia(body, attached.inertia.as_ref(), &at("inertia"), notes)?;
             parts.push((attached.mass, Vector3::from(attached.point), tensor(&moments, &axes)));
         }
@@ -192,7 +196,7 @@ fn principal_inertia(
     let (moments, axes) = match inertia {
         None => (Vector3::zeros(), Matrix3::identity()),
         Some(Inertia::Principal(moments)) => {
-            finite(moments, &format!("{pointer}/principal"))?;
+            within(moments, MAX_INERTIA, &format!("{pointer}/principal"))?;
             (Vector3::from(*moments), Matrix3::identity())
         }
         Some(Inertia::Tensor(rows)) => {
@@ -233,7 +237,7 @@ fn diagonalize(
     pointer: &str,
 ) -> Result<(Vector3<f64>, Matrix3<f64>), ModelError> {
     for (i, row) in rows.iter().enumerate() {
-        finite(row, &format!("{pointer}/{i}"))?;
+        within(row, MAX_INERTIA, &format!("{pointer}/{i}"))?;
     }
     let tensor = Matrix3::from_fn(|i, j| rows[i][j]);
     let largest = tensor.amax();

@@ -62,7 +62,7 @@ pub enum ModelError {
         value: f64,
     },
     /// A number outside its range.
-    #[error("{pointer}: {value} is not between {low} and {high}")]
+    #[error("{pointer}: {value} is not between {low} and {high}", value = short(*value), low = short(*low), high = short(*high))]
     OutOfRange {
         /// Where.
         pointer: String,
@@ -205,7 +205,10 @@ impl ModelError {
             }
             Self::SameBody { .. } => "Name two different bodies, one of which may be \"ground\".".to_owned(),
             Self::NotFinite { .. } => "Write an ordinary number.".to_owned(),
-            Self::OutOfRange { low, high, .. } => format!("Choose a value from {low} to {high}."),
+            Self::OutOfRange { low, high, .. } => {
+                let (low, high) = (short(*low), short(*high));
+                format!("Choose a value from {low} to {high}.")
+            }
             Self::Mass { .. } => "Give a positive mass in kg; a light body may have 1e-9 kg.".to_owned(),
             Self::Inertia { .. } => {
                 "Check the units (kg m²) and that the moments are about the centre of mass; for a flat body the \
@@ -243,4 +246,10 @@ impl ModelError {
             }
         }
     }
+}
+
+/// A number, by its power of ten where it would fill the line.
+fn short(number: f64) -> String {
+    let size = number.abs();
+    if size >= 1e21 || (size > 0.0 && size < 1e-14) { format!("{number:e}") } else { number.to_string() }
 }

@@ -1,7 +1,7 @@
 //! Resolving names, points and vectors of the elements of a scene.
 
 use super::output::{WITH_ANGLE, WITH_SLIDE};
-use super::{BodyRef, ModelBody, ModelError, ModelJoint, finite};
+use super::{BodyRef, MAX_LENGTH, ModelBody, ModelError, ModelJoint, finite, within};
 use crate::model::motion::{Curve, VectorCurve};
 use crate::scene::{GROUND, JointKind, Motion, Triple, VectorMotion};
 use nalgebra::Vector3;
@@ -121,7 +121,7 @@ impl ModelReader<'_> {
     ///
     /// [`ModelError`]: a number that is not finite.
     pub fn vector(&self, key: &str, value: Triple) -> Result<Vector3<f64>, ModelError> {
-        finite(&value, &self.at(key))?;
+        within(&value, MAX_LENGTH, &self.at(key))?;
         Ok(Vector3::from(value))
     }
 
@@ -270,7 +270,7 @@ impl ModelReader<'_> {
                 }
             }
             VectorMotion::Turning { start, axis, angle } => {
-                self.vector(&format!("{key}/start"), *start)?;
+                finite(start, &self.at(&format!("{key}/start")))?;
                 self.unit(&format!("{key}/axis"), *axis)?;
                 self.curve(&format!("{key}/angle"), angle)?;
             }

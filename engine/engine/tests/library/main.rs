@@ -4,6 +4,7 @@
 mod common;
 
 mod analyses;
+mod bounds;
 mod catalogue;
 mod counting;
 mod custom_loads;
