@@ -40,7 +40,8 @@ fn chain(kind: &str, links: usize, tilt: f64) -> Scene {
 /// How far the last body is from where it hangs, m.
 fn off(found: &Equilibrium, lowest: f64) -> f64 {
     let [x, y, z] = found.bodies.last().unwrap().position;
-    (x * x + (y + lowest).powi(2) + z * z).sqrt()
+    let above = y + lowest;
+    (x * x + above * above + z * z).sqrt()
 }
 
 #[test]
