@@ -258,3 +258,21 @@ fn connections_that_say_nothing_cost_little_and_do_not_keep_the_server_up() {
     silent[1].write_all(b"POST /api/v1/sessions HTTP/1.1\r\nHost: x\r\ncontent-length: 9\r\n\r\n{").unwrap();
     server.stop(); // or fails, if it does not end
 }
+
+/// The motion of a driven mechanism is as good as exact: what the work that is summed up beside it misses is no drift of its energy.
+#[test]
+fn what_the_work_misses_is_not_told_as_a_drift_of_the_energy() {
+    let energy = |scene: &str| {
+        let done = run(&["run", scene, "--until", "10", "--tolerance", "1e-6"]);
+        let told = String::from_utf8(done.stdout).unwrap();
+        told.lines().find(|line| line.starts_with("  energy")).unwrap().to_owned()
+    };
+    let driven = energy("crank-rocker");
+    assert!(driven.contains("is summed up to within 2e-3 J") && !driven.contains("drift"), "{driven}");
+    assert!(
+        driven.contains("right to about 1e-14 J") || driven.contains("right to about 2e-14 J"),
+        "{driven}"
+    );
+    let free = energy("simple-pendulum");
+    assert!(free.contains("drift") && !free.contains("summed up"), "{free}");
+}
