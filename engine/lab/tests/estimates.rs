@@ -180,6 +180,20 @@ fn the_estimate_of_a_long_driven_run_is_as_good() {
     }
 }
 
+/// The same by radau, whose second solution goes on from where the run came to: what Newton's method leaves of their difference adds up.
+#[test]
+fn the_estimate_of_a_long_run_by_radau_is_as_good() {
+    let mut scene: serde_json::Value =
+        serde_json::from_str(&catalogue::scene("simple-pendulum").unwrap().to_json()).unwrap();
+    scene["loads"] = serde_json::json!([{ "type": "spring", "name": "soft", "body_i": "ground", "point_i": [0, -2, 0],
+        "body_j": "bob", "point_j": [0, 0, 0], "stiffness": 3, "free_length": 1 }]);
+    let scene = Scene::from_json(&scene.to_string()).unwrap().integrator(IntegratorKind::Radau);
+    for (tolerance, duration) in [(1e-4, 30.0), (1e-6, 60.0), (1e-8, 60.0)] {
+        let judged = judge(&scene.clone().duration(duration).tolerance(tolerance)).unwrap();
+        assert!(judged.len() >= 15 && judged.iter().all(Judged::is_good), "{tolerance:e}: {judged:?}");
+    }
+}
+
 /// The same of a pendulum on a spring, whose potential counts.
 #[test]
 fn the_energy_of_springs_tells_of_errors_too() {

@@ -86,6 +86,7 @@ impl Radau {
             &self.last,
             (jacobian, factors),
             (&other.stages, between, &other.last.y),
+            self.estimated,
         ) {
             return false;
         }

@@ -11,6 +11,10 @@ use triad_dynamics::ode::OdeSystem;
 /// times as much is a fifth cheaper, but then half of the estimates of a governor that starts from rest are not within a factor of three.
 const LEFT_WITHIN: f64 = 1e-3;
 const LEFT_AT_END: f64 = 1e-2;
+/// The same as a part of the tolerance of this run: as the difference grows with the time, more would be another error in each step.
+const LEFT: f64 = 1e-2;
+/// The least that can be asked for: rounding is near.
+const LEAST: f64 = 1e-12;
 const MOST_BESIDE: usize = 8;
 
 impl Stages {
@@ -23,7 +27,9 @@ impl Stages {
         last: &StepRecord,
         (jacobian, factors): (&RateJacobian, &mut Factors),
         (other, between, end): (&Self, &DMatrix<f64>, &[f64]),
+        tolerance: f64,
     ) -> bool {
+        let enough = (LEFT * tolerance).max(LEAST);
         combine(between, &other.z_old, &mut self.z);
         self.turn_over();
         self.set_scale(last, 1.0);
@@ -44,7 +50,9 @@ impl Stages {
                 return false;
             } else if rate < DIVERGING {
                 let left = rate / (1.0 - rate);
-                if left * size <= LEFT_WITHIN * first && self.knows_difference(last, end, left) {
+                if left * size <= enough.min(LEFT_WITHIN * first)
+                    && self.knows_difference(last, end, left, enough)
+                {
                     return true;
                 }
             }
@@ -58,7 +66,7 @@ impl Stages {
 
     /// Whether the part `left` of the last correction of the end, which was `trial` before, is small beside its difference from the other
     /// run's, in coordinates and in rates.
-    fn knows_difference(&self, last: &StepRecord, end: &[f64], left: f64) -> bool {
+    fn knows_difference(&self, last: &StepRecord, end: &[f64], left: f64, enough: f64) -> bool {
         let Some(z) = self.z.last() else { return false };
         let f = z.len() / 2;
         [0..f, f..2 * f].into_iter().all(|half| {
@@ -69,7 +77,7 @@ impl Stages {
                 corrected += squares[0];
                 apart += squares[1];
             }
-            left * corrected.sqrt() <= LEFT_AT_END * apart.sqrt()
+            left * corrected.sqrt() <= (LEFT_AT_END * apart.sqrt()).min(enough * (f as f64).sqrt())
         })
     }
 }
