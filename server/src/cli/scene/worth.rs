@@ -19,8 +19,10 @@ pub(super) struct Judged<'a> {
 #[derive(Serialize)]
 pub(super) struct Worth {
     /// The largest errors; none where they are not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
     reaction_errors: Option<ReactionErrors>,
     /// From when on the error is not known, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
     error_unknown_from: Option<f64>,
     /// What speaks against the state.
     doubts: Vec<String>,
