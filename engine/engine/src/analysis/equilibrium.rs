@@ -125,7 +125,6 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
     let mut steps = 0;
     loop {
         stage.wanted.check()?;
-        stage.rest();
         let multipliers = stage.accelerate().multipliers.solver_rows().to_vec();
         let stiffness = stage.stiffness(&held.basis, &multipliers);
         let (stiffnesses, motions) = eigen(&stiffness);

@@ -145,10 +145,7 @@ impl Stepper for Taylor {
     }
 
     fn error(&self, system: &System, t: f64, y: &mut [f64]) -> bool {
-        // The series of the whole write all of it.
-        if !matches!(self.islands.as_slice(), [island] if island.is_whole()) {
-            y.fill(0.0);
-        }
+        y.fill(0.0);
         self.islands.iter().all(|island| island.error(system, t, y))
     }
 

@@ -120,8 +120,7 @@ impl Simulation {
 
     /// The error of the current state, where it is known.
     pub(super) fn error_of_state(&self) -> Option<Vec<f64>> {
-        // Numbers that are all written over.
-        let mut error = self.current.y().to_vec();
+        let mut error = vec![0.0; self.current.y().len()];
         self.write_error(&mut error).then_some(error)
     }
 
@@ -137,18 +136,16 @@ impl Simulation {
     /// to be much below them.
     fn energy_error(&self, here: &State, there: &State) -> f64 {
         let system = self.system();
-        let (mut sum, mut apart) = (0.0, 0.0);
-        for (a, b) in here.energies(system).zip(there.energies(system)) {
-            sum += a.abs();
-            apart += (a - b).abs();
-        }
         let energy = here.energy(system);
         let error = if system.is_conservative() {
-            energy - self.start_energy
+            (energy - self.start_energy).abs()
         } else {
+            let parts = here.energies(system).zip(there.energies(system));
+            let apart: f64 = parts.map(|(a, b)| (a - b).abs()).sum();
             (energy - there.energy(system)).abs().max(CANCELLED * apart)
         };
-        error.abs().max(f64::EPSILON * sum)
+        let size: f64 = here.energies(system).map(f64::abs).sum();
+        error.max(f64::EPSILON * size)
     }
 
     /// The current state compared with that without an error.

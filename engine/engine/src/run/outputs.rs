@@ -11,7 +11,6 @@ use super::{ErrorEstimate, Simulation};
 use crate::integrate::add_power;
 use crate::scene::{Output, OutputKind};
 use nalgebra::Vector3;
-use triad_dynamics::dynamics::elimination::Multipliers;
 use triad_dynamics::model::{BodyRef, DriverKind, ModelJoint};
 use triad_dynamics::state::State;
 
@@ -182,8 +181,7 @@ fn write(run: &Simulation, group: Group, row: &mut Vec<f64>) {
         }
         Group::Reaction(constraint) => push(row, &run.current.wrenches(run)[constraint]),
         Group::Driver { constraint, driver } => {
-            let view = run.state();
-            write_driver(&view.solved().multipliers, constraint, &model.drivers[driver].kind, row);
+            write_driver(run, constraint, &model.drivers[driver].kind, row);
         }
         Group::Angle(angle) => row.extend([state.angles()[angle].value, state.angles()[angle].rate]),
         Group::Slide(joint) => row.extend(slide(&model.joints[joint], state)),
@@ -236,14 +234,10 @@ fn push(row: &mut Vec<f64>, vectors: &[Vector3<f64>]) {
     }
 }
 
-/// Force and moment of a joint or driver; zero where it meets no moving body.
-fn wrench(at: &Multipliers, constraint: usize) -> [Vector3<f64>; 2] {
-    at.joint_wrench(&at.system.constraints[constraint]).map_or_else(Default::default, |w| [w.force, w.moment])
-}
-
 /// Of a driven angle or slide its value, its rate and the effort along it, of another driver force and moment; and the power.
-fn write_driver(at: &Multipliers, constraint: usize, kind: &DriverKind, row: &mut Vec<f64>) {
-    let [force, moment] = wrench(at, constraint);
+fn write_driver(run: &Simulation, constraint: usize, kind: &DriverKind, row: &mut Vec<f64>) {
+    let (view, [force, moment]) = (run.state(), run.current.wrenches(run)[constraint]);
+    let at = &view.solved().multipliers;
     match kind {
         DriverKind::Angle { joint, motion } | DriverKind::Slide { joint, motion } => {
             let joint = &at.system.model.joints[*joint];

@@ -132,11 +132,6 @@ impl IslandStepper {
         self.t
     }
 
-    /// Whether it is the whole mechanism.
-    pub fn is_whole(&self) -> bool {
-        self.own.is_none()
-    }
-
     /// When its error became too large to be carried, s.
     pub fn error_lost(&self) -> Option<f64> {
         self.series.error_lost()
