@@ -247,7 +247,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             return;
         }
         // Common points make the same of S whatever their values are.
-        if self.needs_values() || self.points.has_others() {
+        if self.needs_values || self.points.has_others() {
             self.place_values();
             self.rows.turn_common_vectors(&self.values);
             self.rows.store_factors(0, &self.values);

@@ -40,7 +40,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         for (b, state) in self.state.iter().enumerate() {
             self.q[b * self.stride..b * self.stride + 2].copy_from_slice(state);
         }
-        if self.needs_values() {
+        if self.needs_values {
             self.place_values();
             self.store_values(0);
             self.points.take_factors(self.rows.numbers());
@@ -84,7 +84,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     pub(super) fn solve_order<S: Simd>(&mut self, simd: S, n: usize) {
         let kappa = real((n + 1) * (n + 2));
         let over_kappa = 1.0 / kappa;
-        let needs_values = self.needs_values();
+        let needs_values = self.needs_values;
         for bundle in &mut self.bundles {
             bundle.clear_force();
             if n == 0 {
@@ -129,16 +129,10 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
     }
 
-    /// Whether values of features are needed in every order.
-    #[inline(always)]
-    pub(super) fn needs_values(&self) -> bool {
-        self.needs_values
-    }
-
     /// Whether no row and no load asks for any feature: nothing but bodies on pivots of the ground, and free ones.
     #[inline(always)]
     pub(super) fn is_bare(&self) -> bool {
-        self.schur.factor.numbers() == 0 && !self.needs_values()
+        self.schur.factor.numbers() == 0 && !self.needs_values
     }
 
     /// Takes over coefficient m of all features.

@@ -166,6 +166,17 @@ fn curvature<const L: usize, B: Bodies<L>>(coefficients: &[B::Natural], tau: f64
     second
 }
 
+/// The error of positions and rates that a second derivative tells, given half that of the equations.
+#[inline(always)]
+fn local<const L: usize, B: Bodies<L>>(
+    by: [f64; 2],
+    second: &B::Natural,
+    half: &B::Natural,
+) -> [B::Natural; 2] {
+    let missed = moved::<L, B>(second, -2.0, half);
+    by.map(|by| moved::<L, B>(&B::zero(), by, &missed))
+}
+
 /// What a step adds to an error and what that is in all, at its end, to be compiled likewise: eq. (11.11), from the second derivative
 /// of the series there, and that of the equations, which the twin has. The sizes of both, the whole first, are
 /// returned.
@@ -194,13 +205,11 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Missed<'_, L, B> {
             let first = b * twin.stride;
             let terms = first..=first + order;
             let second = curvature::<L, B>(&series[terms.clone()], h);
-            let missed = moved::<L, B>(&second, -2.0, &twin.q[first + 2]);
-            *added = by.map(|by| moved::<L, B>(&B::zero(), by, &missed));
+            *added = local::<L, B>(by, &second, &twin.q[first + 2]);
             sizes[1].raise::<L, B>(added);
             if let Some([carried, half]) = beside {
                 let second = moved::<L, B>(&second, -1.0, &curvature::<L, B>(&carried[terms], h));
-                let missed = moved::<L, B>(&second, -2.0, &half[b]);
-                *added = by.map(|by| moved::<L, B>(&B::zero(), by, &missed));
+                *added = local::<L, B>(by, &second, &half[b]);
             }
             error[b] = moved_both::<L, B>(&arrived[b], 1.0, added);
             sizes[0].raise::<L, B>(&error[b]);
