@@ -28,6 +28,8 @@ pub mod body;
 
 pub mod islands;
 
+pub mod pivots;
+
 pub mod planar;
 
 use crate::model::motion::VectorCurve;

@@ -186,7 +186,8 @@ pub struct Skip {
     pub planar: bool,
     /// Steps that bodies need not take with others that nothing connects them with (integrator `taylor`).
     pub islands: bool,
-    /// Bodies that rigid connections tie to the ground, or to another body that then moves for both (integrator `taylor`).
+    /// Bodies that rigid connections tie to the ground, or to another body that then moves for both, and rows that hold a body in a
+    /// point of the ground (integrator `taylor`).
     pub fixed: bool,
     /// Entries of the matrix that never change: they are written once (integrator `taylor`).
     pub constants: bool,

@@ -97,6 +97,12 @@ impl ModelBody {
         }
     }
 
+    /// Principal moments about one of its points, and the axes there as columns; both in its principal frame.
+    pub(crate) fn principal_about(&self, point: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+        let inertia = Matrix3::from_diagonal(&self.principal) + of_point(self.mass, point);
+        principal_axes(&inertia, inertia.amax())
+    }
+
     /// Coordinates (ξ, η, ζ) in the principal frame of a point of the author's frame.
     pub fn point_to_principal(&self, point: &Vector3<f64>) -> Vector3<f64> {
         self.principal_axes.tr_mul(&(point - self.center_of_mass))
@@ -173,12 +179,14 @@ fn composed(parts: &[(f64, Vector3<f64>, Matrix3<f64>)]) -> (f64, Vector3<f64>, 
     // Steiner's theorem: the parallel axes of all parts meet in the common centre.
     let whole = parts
         .iter()
-        .map(|(mass, center, inertia)| {
-            let arm = center - center_of_mass;
-            inertia + (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose()) * *mass
-        })
+        .map(|(mass, center, inertia)| inertia + of_point(*mass, &(center - center_of_mass)))
         .sum();
     (mass, center_of_mass, whole)
+}
+
+/// Inertia of a point mass about a point that it is this far from.
+fn of_point(mass: f64, arm: &Vector3<f64>) -> Matrix3<f64> {
+    (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose()) * mass
 }
 
 /// The tensor of principal moments about axes, the columns.

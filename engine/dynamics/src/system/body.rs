@@ -31,17 +31,16 @@ pub struct RigidBody {
     pub coordinates: Coordinates,
     /// How its natural coordinates follow from q.
     pub layout: Layout,
-    /// The bodies that it is made of, if it stands for several that are rigidly joined: their coordinates are those of q, and its
-    /// own layout is not used.
+    /// The bodies that it stands for, if it is described in a frame of its own: several that are rigidly joined, or one about its
+    /// pivot. Their coordinates are those of q, and its own layout is not used.
     pub parts: Vec<BodyPart>,
     /// Its pose in the plane, in a system that has been reduced to one.
     pub planar_pose: Option<PlanarPose>,
-    /// The point in which a hinge fixes it to the ground, in a system that has been reduced to a plane: that joint's rows are
-    /// eliminated with the rigid-body rows — eq. (7.10).
+    /// The point of the ground in which it is held, if it is described about that — eq. (7.10).
     pub pivot: Option<GroundPivot>,
 }
 
-/// A body that is rigidly joined to others, as part of the one that stands for all of them.
+/// A body in the frame of the one that stands for it, and perhaps for others.
 #[derive(Clone, Copy, Debug)]
 pub struct BodyPart {
     /// How its natural coordinates follow from q.
@@ -50,13 +49,13 @@ pub struct BodyPart {
     pub place: NaturalCoordinates,
 }
 
-/// A point of a body that a joint holds at a point of the ground.
+/// A point of the ground that holds a point of a body, where the body's frame begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroundPivot {
-    /// The point of the body, in its own frame.
-    pub local: Vector3<f64>,
-    /// The point of the ground.
+    /// That point.
     pub ground: Vector3<f64>,
+    /// The centre of mass in the body's frame.
+    pub center: Vector3<f64>,
 }
 
 impl RigidBody {
@@ -83,21 +82,20 @@ impl RigidBody {
 
     /// Q of all generalized coordinates q.
     pub fn position(&self, q: &[f64]) -> NaturalCoordinates {
-        match self.parts.first() {
-            None => self.layout.position(q),
-            Some(part) => part.layout.position(q).carrier(&part.place),
-        }
+        let Some(part) = self.parts.first() else { return self.layout.position(q) };
+        let carrier = part.layout.position(q).carrier(&part.place);
+        NaturalCoordinates { r: self.pivot.map_or(carrier.r, |pivot| pivot.ground), ..carrier }
     }
 
     /// Q and Q̇ of all generalized coordinates and velocities.
     pub fn motion(&self, q: &[f64], q_dot: &[f64]) -> [NaturalCoordinates; 2] {
-        let layout = self.parts.first().map_or(&self.layout, |part| &part.layout);
-        let position = layout.position(q);
-        let motion = [position, layout.velocity(&position, q_dot)];
-        match self.parts.first() {
-            None => motion,
-            Some(part) => motion.map(|of_part| of_part.carrier(&part.place)),
-        }
+        let Some(part) = self.parts.first() else {
+            let position = self.layout.position(q);
+            return [position, self.layout.velocity(&position, q_dot)];
+        };
+        let velocity = part.layout.velocity(&part.layout.position(q), q_dot).carrier(&part.place);
+        let r = if self.pivot.is_some() { Vector3::zeros() } else { velocity.r };
+        [self.position(q), NaturalCoordinates { r, ..velocity }]
     }
 
     /// Writes the coordinates in q that a vector of its natural coordinates, a position or its rate or error, tells.
@@ -123,10 +121,20 @@ impl RigidBody {
         self.regularizing_inertia = 0.0;
     }
 
-    /// What a force at the centre of mass moves it by: nothing if it has a ground pivot, where the moment about the pivot
-    /// says all.
+    /// 1/m, or zero if it is held in a point of the ground.
     pub fn free_inverse_mass(&self) -> f64 {
         if self.pivot.is_some() { 0.0 } else { 1.0 / self.mass }
+    }
+
+    /// Where its weight acts, in its own frame.
+    pub fn center(&self) -> Vector3<f64> {
+        self.pivot.map_or_else(Vector3::zeros, |pivot| pivot.center)
+    }
+
+    /// Its weight as a generalized force.
+    pub fn weight(&self, gravity: &Vector3<f64>) -> NaturalCoordinates {
+        let (r, center) = (gravity * self.mass, self.center());
+        NaturalCoordinates { r, e: [0, 1, 2].map(|k| r * center[k]) }
     }
 }
 

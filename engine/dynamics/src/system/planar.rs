@@ -9,7 +9,7 @@
 use crate::model::motion::{Curve, VectorCurve};
 use crate::model::{BodyRef, JointGeometry, ModelJoint};
 use crate::scene::LoadFrame;
-use crate::system::body::{GroundPivot, LACKING, PlanarPose, RigidBody};
+use crate::system::body::{LACKING, PlanarPose, RigidBody};
 use crate::system::feature::{Difference, Target};
 use crate::system::index::FeatureId;
 use crate::system::load::SystemLoad;
@@ -125,6 +125,12 @@ fn loose_body(system: &System, keeps_plane: impl Fn(&ModelJoint) -> bool) -> Opt
 }
 
 impl Plane {
+    /// The normal in the frame of a body at this place.
+    pub fn normal_in(&self, place: &NaturalCoordinates) -> Vector3<f64> {
+        let normal = self.frame.column(2);
+        Vector3::from(place.e.map(|e| e.dot(&normal)))
+    }
+
     /// The system with the coordinates of the plane and the rows that matter there, at positions q.
     ///
     /// # Errors
@@ -142,7 +148,7 @@ impl Plane {
         }
         turn_features(&mut flat, &turned);
         turn_loads(&mut flat, &turned);
-        keep_rows(&mut flat)?;
+        flat.keep_rows(kept, independent)?;
         set_inertia(&mut flat);
         Ok(flat)
     }
@@ -160,56 +166,10 @@ fn set_inertia(flat: &mut System) {
         let inertia = body.principal.dot(&normal.component_mul(&normal));
         body.ibar = Vector3::new(inertia, 0.0, 0.0);
         let scale = body.mass * arm * arm;
-        let about_pivot = body.pivot.map_or(0.0, |pivot| body.mass * pivot.local.xy().norm_squared());
-        let lacks = inertia + about_pivot < LACKING * scale || inertia + about_pivot == 0.0;
+        let lacks = inertia < LACKING * scale || inertia == 0.0;
         let scale = if scale == 0.0 { body.mass * flat.length * flat.length } else { scale };
         body.regularizing_inertia = if lacks { REGULARIZING_INERTIA * scale } else { 0.0 };
     }
-}
-
-/// Leaves of each joint the rows of the plane, and numbers them anew.
-fn keep_rows(flat: &mut System) -> Result<(), Spatial> {
-    let rows = std::mem::take(&mut flat.rows);
-    let mut constraints = std::mem::take(&mut flat.constraints);
-    (flat.solver_rows, flat.block_entries) = (0, 0);
-    for constraint in &mut constraints {
-        let first = flat.rows.len();
-        let mut size = 0;
-        for mut row in kept(flat, &rows[constraint.forms.clone()], &constraint.name)? {
-            if set_pivot(flat, &row.form) {
-                continue;
-            }
-            row.solver = flat.solver_rows + size;
-            row.local = size;
-            size += independent(&row.form);
-            flat.rows.push(row);
-        }
-        constraint.forms = first..flat.rows.len();
-        constraint.solver = flat.solver_rows..flat.solver_rows + size;
-        flat.solver_rows += size;
-        for incidence in &mut flat.incidences[constraint.incidences.clone()] {
-            (incidence.rows, incidence.offset) = (size, flat.block_entries);
-            flat.block_entries += 6 * size;
-        }
-    }
-    flat.constraints = constraints;
-    Ok(())
-}
-
-/// Makes a hinge on the ground the pivot of its body: one for each body, and only between fixed points.
-fn set_pivot(flat: &mut System, form: &Form) -> bool {
-    let &Form::Coincidence { a, b } = form else { return false };
-    let [a, b] = [a, b].map(|f| flat[f]);
-    let (body, own, ground) = match (a.body, b.body) {
-        (BodyRef::Moving(body), BodyRef::Ground) => (body, a, b),
-        (BodyRef::Ground, BodyRef::Moving(body)) => (body, b, a),
-        _ => return false,
-    };
-    let free = flat.bodies[body].pivot.is_none() && own.curve.is_none() && ground.curve.is_none();
-    if free {
-        flat.bodies[body].pivot = Some(GroundPivot { local: own.local, ground: ground.local });
-    }
-    free
 }
 
 /// Features along the director of their body, or in the frame of the plane.

@@ -8,6 +8,8 @@
 use crate::system::angle::Angle;
 use crate::system::feature::{Difference, Target};
 use crate::system::index::FeatureId;
+use crate::system::{Row, System};
+use std::mem::take;
 
 /// One form of constraint.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,6 +99,41 @@ impl Form {
                 }
             }
         }
+    }
+}
+
+impl System {
+    /// Keeps of each joint, by its name, the rows that are chosen, each of which counts as many rows of the solver, and numbers them anew.
+    ///
+    /// # Errors
+    ///
+    /// What the choice says.
+    pub(super) fn keep_rows<E>(
+        &mut self,
+        choose: impl Fn(&Self, &[Row], &str) -> Result<Vec<Row>, E>,
+        independent: impl Fn(&Form) -> usize,
+    ) -> Result<(), E> {
+        let (rows, mut constraints) = (take(&mut self.rows), take(&mut self.constraints));
+        (self.solver_rows, self.block_entries) = (0, 0);
+        for constraint in &mut constraints {
+            let first = self.rows.len();
+            let mut size = 0;
+            for mut row in choose(self, &rows[constraint.forms.clone()], &constraint.name)? {
+                row.solver = self.solver_rows + size;
+                row.local = size;
+                size += independent(&row.form);
+                self.rows.push(row);
+            }
+            constraint.forms = first..self.rows.len();
+            constraint.solver = self.solver_rows..self.solver_rows + size;
+            self.solver_rows += size;
+            for incidence in &mut self.incidences[constraint.incidences.clone()] {
+                (incidence.rows, incidence.offset) = (size, self.block_entries);
+                self.block_entries += 6 * size;
+            }
+        }
+        self.constraints = constraints;
+        Ok(())
     }
 }
 

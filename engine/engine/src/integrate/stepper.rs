@@ -82,6 +82,8 @@ pub struct SkippedWork {
     pub fixed_bodies: usize,
     /// Bodies that are left out because they move with others that they are rigidly joined to.
     pub merged_bodies: usize,
+    /// Bodies that turn about points of the ground, without rows for these.
+    pub pivoted_bodies: usize,
     /// Entries of the matrix that were not written again.
     pub constants: u64,
     /// Steps after which the constraints needed no measuring.

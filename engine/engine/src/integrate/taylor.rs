@@ -59,6 +59,7 @@ impl Taylor {
         };
         for island in &islands {
             skipped.rows += island.rows();
+            skipped.pivoted_bodies += island.pivoted();
             skipped.planar_bodies += if island.is_planar() { island.bodies() } else { 0 };
         }
         Self { islands, last: StepRecord::new(t, y), stepped: 0, skipped, proven: false, projections: 0 }

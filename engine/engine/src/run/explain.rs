@@ -86,6 +86,12 @@ impl Simulation {
                 "{tied}; {merged} merged with those that they are rigidly joined to, {rows} rows left"
             );
         }
+        if s.pivoted_bodies > 0 {
+            tied = format!(
+                "{tied}; {} turned about points of the ground without rows for these",
+                s.pivoted_bodies
+            );
+        }
         let unchanged = format!("{constants} entries of the matrix that never change not written again");
         let proven = format!(
             "{} of {steps} steps shown consistent by their own projection, {} measured",

@@ -70,7 +70,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 if n == 0 {
                     bundle.add_weight();
                 }
-                bundle.begin(simd, &q[0], &B::gram(simd, q, n + 2, kappa), B::moment(simd, q, p, n));
+                let (gamma, moment) = bundle.alone(simd, q, p, n, kappa);
+                bundle.begin(simd, &q[0], &gamma, moment);
                 let mut largest = [sizes[n + 2], 0.0, 0.0, 0.0];
                 take_solution::<L, B>(bundle, 1.0 / kappa, &mut q[n + 2], &mut largest);
                 p[n] = bundle.director_forces(simd);

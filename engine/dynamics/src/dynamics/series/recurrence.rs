@@ -3,18 +3,19 @@
 use nalgebra::Vector3;
 use triad_linalg::fma;
 
-/// Does something with each pair of one list, from its beginning, and another that is as long, from its end: two pairs at a time, as
-/// moving along both lists takes as long as many a pair. No closure: those would not be compiled for the vectors in use.
+/// Does something with each pair of one list, from its end, and another that is as long, from its beginning: two pairs at a time, as
+/// moving along both lists takes as long as many a pair. The pair that the order before has just found is the last, so that the others
+/// need not wait for it. No closure: those would not be compiled for the vectors in use.
 macro_rules! for_folded {
     ($heads:expr, $tails:expr, $a:pat, $b:pat => $does:block) => {
         let ((heads, last), (first, tails)) = ($heads.as_chunks::<2>(), $tails.as_rchunks::<2>());
-        for ([a, next], [before, b]) in heads.iter().zip(tails.iter().rev()) {
-            let ($a, $b) = (a, b);
-            $does
-            let ($a, $b) = (next, before);
+        if let ([$a], [$b]) = (last, first) {
             $does
         }
-        if let ([$a], [$b]) = (last, first) {
+        for ([a, next], [before, b]) in heads.iter().rev().zip(tails) {
+            let ($a, $b) = (next, before);
+            $does
+            let ($a, $b) = (a, b);
             $does
         }
     };

@@ -9,9 +9,8 @@ use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
 use triad_dynamics::dynamics::series::{IslandSeries, MIN_TOLERANCE_REDUNDANT, StepPlan};
 use triad_dynamics::model::BodyRef;
 use triad_dynamics::state::State;
-use triad_dynamics::system::System;
 use triad_dynamics::system::islands::{self, Island};
-use triad_dynamics::system::planar;
+use triad_dynamics::system::{System, pivots, planar};
 
 /// Highest order of the series.
 const MAX_ORDER: usize = 30;
@@ -31,7 +30,7 @@ const MANY_HALVINGS: u64 = 3;
 /// An island and its last step.
 #[derive(Clone, Debug)]
 pub struct IslandStepper {
-    /// Its bodies, if it is not the whole.
+    /// What is solved, if it is not the whole as it stands.
     own: Option<Box<System>>,
     /// Places of its joints and drivers among those of the whole.
     constraints: Option<Vec<usize>>,
@@ -69,30 +68,31 @@ impl IslandStepper {
         y: &[f64],
         tolerance: f64,
     ) -> Self {
-        let own = own.map(|island| Box::new(island.system));
-        let system = own.as_deref().unwrap_or(whole);
-        let constraints = own.as_deref().map(|own| places(whole, own));
+        let own = own.map(|island| island.system);
+        let system = own.as_ref().unwrap_or(whole);
+        let constraints = own.as_ref().map(|own| places(whole, own));
         let skip = whole.model.settings.skip;
         let q = &y[..whole.coordinates];
         let plane = if skip.planar { planar::recognize(system, q).ok() } else { None };
-        let flat = plane.and_then(|plane| plane.reduce(system, q).ok());
+        let held = if skip.fixed { pivots::about_pivots(system, q, plane.as_ref()) } else { None };
+        let in_space = held.as_ref().unwrap_or(system);
+        let flat = plane.and_then(|plane| plane.reduce(in_space, q).ok());
+        let solved = flat.as_ref().unwrap_or(in_space);
         let order = order_for(tolerance, flat.is_some());
         let most = if system.bodies.len() > FEW_BODIES { order } else { MAX_ORDER };
-        let pivots = flat.as_ref().map(pivots).unwrap_or_default();
-        let rows = flat.as_ref().unwrap_or(system).solver_rows;
+        let rows = solved.solver_rows;
         let loops = islands::has_loops(&system.model);
         let series_of = |measured: &System, order: usize| match flat {
             None => IslandSeries::in_space(measured, order, turns),
             Some(_) => IslandSeries::in_plane(measured, order, turns),
         };
-        let solved = flat.as_ref().unwrap_or(system);
         let mut series = series_of(solved, most);
         series.keep_constants(skip.constants);
-        series.place(system, t, y);
+        series.place(solved, t, y);
         let mut dependent = Vec::new();
         if (flat.is_some() || redundant) && rows > 0 {
             let mut measured = series_of(&solved.in_lengths(), 1);
-            measured.place(system, t, y);
+            measured.place(solved, t, y);
             dependent = measured.find_dependent(system.length, redundant);
             series.leave_out(&dependent);
         }
@@ -105,10 +105,10 @@ impl IslandStepper {
         }
         series.linearize();
         let tolerance = if redundant { tolerance.max(MIN_TOLERANCE_REDUNDANT) } else { tolerance };
-        let (length, bodies) = (system.length, system.bodies.len());
+        let (length, bodies, pivots) = (system.length, system.bodies.len(), rowless(solved));
         Self {
             loops,
-            own,
+            own: flat.or(held).or(own).map(Box::new),
             constraints,
             pivots,
             tolerance,
@@ -151,6 +151,11 @@ impl IslandStepper {
     /// Rows of the solver.
     pub fn rows(&self) -> usize {
         self.rows
+    }
+
+    /// Bodies that turn about points of the ground, without rows for these.
+    pub fn pivoted(&self) -> usize {
+        self.own.iter().flat_map(|own| &own.bodies).filter(|body| body.pivot.is_some()).count()
     }
 
     /// Whether its last step has shown by itself that the constraints hold.
@@ -256,7 +261,7 @@ impl IslandStepper {
     pub fn multipliers(&self, system: &System, state: &State, jacobian: &TwistJacobian) -> Option<Vec<f64>> {
         let tau = state.time() - self.t_old;
         let inside = self.h_old > 0.0 && (0.0..=self.h_old).contains(&tau);
-        if self.own.is_some() || self.is_planar() || !inside {
+        if self.own.is_some() || !inside {
             return None;
         }
         self.series.multipliers(system, tau, self.order_old, jacobian)
@@ -327,7 +332,7 @@ impl Track for IslandStepper {
 }
 
 /// Joints without rows in a plane, each with the other joints of its body.
-fn pivots(flat: &System) -> Vec<(usize, Vec<usize>)> {
+fn rowless(flat: &System) -> Vec<(usize, Vec<usize>)> {
     let joints = &flat.model.joints;
     let moves = |joint: usize, body: BodyRef| body != BodyRef::Ground && joints[joint].bodies.contains(&body);
     let others = |pivot: usize| {

@@ -20,14 +20,15 @@ pub struct Bundle<const L: usize> {
     bodies: Range<usize>,
     /// Their features.
     slots: Range<usize>,
-    /// 1/m.
+    pub(super) mass: Lane<L>,
+    /// 1/m, or zero for a body about its pivot.
     pub(super) inverse_mass: Lane<L>,
     /// Ī of u, v, w.
     pub(super) ibar: LaneVector<L>,
     /// δ, the inertia regularization.
     pub(super) regularizing_inertia: Lane<L>,
-    /// Constant generalized force: the weight.
-    pub(super) weight: LaneVector<L>,
+    /// The weight, as a generalized force.
+    pub(super) weight: Natural<L>,
     /// Half the dual basis of the directors.
     pub(super) dual: [LaneVector<L>; 3],
     /// Rows of I_g⁻¹, δ included.
@@ -76,10 +77,11 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
         Self {
             bodies,
             slots,
+            mass: [1.0; L],
             inverse_mass: [1.0; L],
             ibar: [[1.0; L]; 3],
             regularizing_inertia: [0.0; L],
-            weight: zeros,
+            weight: zero(),
             dual: [zeros; 3],
             inverse: [zeros; 3],
             lower: [[0.0; L]; 6],
@@ -92,12 +94,14 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     fn set_body(&mut self, lane: usize, system: &System, body: &RigidBody) {
-        self.inverse_mass[lane] = 1.0 / body.mass;
+        (self.mass[lane], self.inverse_mass[lane]) = (body.mass, body.free_inverse_mass());
         self.regularizing_inertia[lane] = body.regularizing_inertia;
         for c in 0..3 {
-            let weight = body.mass * system.model.gravity[c];
-            (self.ibar[c][lane], self.weight[c][lane]) = (body.ibar[c], weight);
+            self.ibar[c][lane] = body.ibar[c];
         }
+        let mut weights = self.weight;
+        self.read(lane, &body.weight(&system.model.gravity), &mut weights);
+        self.weight = weights;
     }
 
     fn bodies(&self) -> Range<usize> {
@@ -282,7 +286,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
 
     #[inline(always)]
     fn add_weight(&mut self) {
-        self.force[0] = self.weight;
+        self.force = self.weight;
     }
 
     #[inline(always)]

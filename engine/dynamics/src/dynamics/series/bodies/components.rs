@@ -4,7 +4,7 @@
 use crate::dynamics::series::lanes::{
     Lane, LaneVector, Natural, difference_whole, plus_whole, rows_of_lanes, sum_whole, times_whole,
 };
-use crate::dynamics::series::recurrence::for_folded;
+use crate::dynamics::series::recurrence::{for_folded, real};
 use pulp::Simd;
 
 /// The components of a vector, and zero.
@@ -38,6 +38,12 @@ pub fn narrowed(x: &[Components; 4]) -> Natural<1> {
     [column(r), column(u), column(v), column(w)]
 }
 
+/// Its directors.
+#[inline(always)]
+pub fn directors([_, e @ ..]: &[Components; 4]) -> &[Components; 3] {
+    e
+}
+
 /// Σ a_k × b_k.
 #[inline(always)]
 pub fn cross<S: Simd>(simd: S, a: &[Components; 3], b: &[Components; 3]) -> Components {
@@ -64,38 +70,86 @@ fn double<S: Simd>(simd: S, x: &Components) -> Components {
 /// κ times −Σ e_k(i) · e_l(n−i) over 0 < i < n for the six rigid-body rows: uu, vv, ww, uv, and uw, vw.
 #[inline(always)]
 pub fn gram<S: Simd>(simd: S, q: &[[Components; 4]], n: usize, kappa: f64) -> [Components; 2] {
-    // e_k · f_l apart from e_l · f_k, so that no sum waits for another.
-    let mut sums = [[ZERO; 3]; 3];
+    let mut sums = Products::default();
     let half = (n - 1) / 2;
     let (heads, tails) = (&q[1..=half], &q[n - half..n]);
     for_folded!(heads, tails, e, f => {
+        sums.add(simd, e, f);
+    });
+    sums.gram(simd, n.is_multiple_of(2).then_some(&q[n / 2]), kappa)
+}
+
+/// Sums of e_k ∘ f_l, apart from those of e_l ∘ f_k, so that no sum waits for another.
+#[derive(Default)]
+struct Products([[Components; 3]; 3]);
+
+impl Products {
+    #[inline(always)]
+    fn add<S: Simd>(&mut self, simd: S, e: &[Components; 4], f: &[Components; 4]) {
         for k in 0..3 {
             for l in 0..3 {
-                sums[k][l] = plus_whole(simd, &e[1 + k], &f[1 + l], &sums[k][l]);
+                self.0[k][l] = plus_whole(simd, &e[1 + k], &f[1 + l], &self.0[k][l]);
             }
         }
+    }
+
+    /// −κ times the right-hand sides of the rigid-body rows: from each pair both ways, and from the one in the middle once.
+    #[inline(always)]
+    fn gram<S: Simd>(&self, simd: S, middle: Option<&[Components; 4]>, kappa: f64) -> [Components; 2] {
+        let [[uu, uv, uw], [vu, vv, vw], [wu, wv, ww]] = &self.0;
+        let mut all = [
+            [double(simd, uu), double(simd, vv), double(simd, ww), sum_whole(simd, uv, vu)],
+            [sum_whole(simd, uw, wu), sum_whole(simd, vw, wv), ZERO, ZERO],
+        ];
+        if let Some([_, u, v, w]) = middle {
+            let [[uu, vv, ww, uv], [uw, vw, ..]] = &mut all;
+            *uu = plus_whole(simd, u, u, uu);
+            *vv = plus_whole(simd, v, v, vv);
+            *ww = plus_whole(simd, w, w, ww);
+            *uv = plus_whole(simd, u, v, uv);
+            *uw = plus_whole(simd, u, w, uw);
+            *vw = plus_whole(simd, v, w, vw);
+        }
+        let mut gamma = [ZERO; 2];
+        for (out, sums) in gamma.iter_mut().zip(all) {
+            let [x, y, z, _] = rows_of_lanes(simd, sums);
+            *out = times_whole(simd, &[-kappa; 4], &sum_whole(simd, &sum_whole(simd, &x, &y), &z));
+        }
+        gamma
+    }
+}
+
+/// [`gram`] of order n + 2, and [`moment`] of order n for directors on which only a constant force acts, given −Ī and that force: e × ë is
+/// the rate of e × ė, of which half of the products tell all.
+#[inline(always)]
+pub fn alone<S: Simd>(
+    simd: S,
+    q: &[[Components; 4]],
+    [minus_ibar, force]: [&[Components; 3]; 2],
+    n: usize,
+    kappa: f64,
+) -> ([Components; 2], Components) {
+    let m = n + 2;
+    let mut sums = Products::default();
+    let half = (m - 1) / 2;
+    let (mut ahead, mut behind, mut weight) = ([ZERO; 3], [ZERO; 3], [real(m - 2 * half); 4]);
+    let (heads, tails) = (&q[1..=half], &q[m - half..m]);
+    for_folded!(heads, tails, e, f => {
+        sums.add(simd, e, f);
+        for k in 0..3 {
+            let weighed = times_whole(simd, &weight, &e[1 + k]);
+            ahead[k] = plus_whole(simd, &weighed, &turned(f[1 + k]), &ahead[k]);
+            behind[k] = plus_whole(simd, &turned(weighed), &f[1 + k], &behind[k]);
+        }
+        weight = sum_whole(simd, &weight, &[2.0; 4]);
     });
-    let [[uu, uv, uw], [vu, vv, vw], [wu, wv, ww]] = &sums;
-    let mut all = [
-        [double(simd, uu), double(simd, vv), double(simd, ww), sum_whole(simd, uv, vu)],
-        [sum_whole(simd, uw, wu), sum_whole(simd, vw, wv), ZERO, ZERO],
-    ];
-    if n.is_multiple_of(2) {
-        let [_, u, v, w] = &q[n / 2];
-        let [[uu, vv, ww, uv], [uw, vw, ..]] = &mut all;
-        *uu = plus_whole(simd, u, u, uu);
-        *vv = plus_whole(simd, v, v, vv);
-        *ww = plus_whole(simd, w, w, ww);
-        *uv = plus_whole(simd, u, v, uv);
-        *uw = plus_whole(simd, u, w, uw);
-        *vw = plus_whole(simd, v, w, vw);
+    let mut all = ZERO;
+    for k in 0..3 {
+        all = plus_whole(simd, &minus_ibar[k], &difference_whole(simd, &ahead[k], &behind[k]), &all);
     }
-    let mut gamma = [ZERO; 2];
-    for (out, sums) in gamma.iter_mut().zip(all) {
-        let [x, y, z, _] = rows_of_lanes(simd, sums);
-        *out = times_whole(simd, &[-kappa; 4], &sum_whole(simd, &sum_whole(simd, &x, &y), &z));
-    }
-    gamma
+    let rate = times_whole(simd, &[real(n + 1); 4], &turned(all));
+    let moment = if n == 0 { rate } else { sum_whole(simd, &rate, &cross(simd, directors(&q[n]), force)) };
+    (sums.gram(simd, m.is_multiple_of(2).then_some(&q[m / 2]), kappa), moment)
 }
 
 /// Σ_k Σ e_k(i) × p_k(n−i) over 0 < i ≤ n: the part of the moment that lower orders make.

@@ -150,6 +150,18 @@ pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     fn gram<S: Simd>(simd: S, q: &[Self::Natural], n: usize, kappa: f64) -> Self::Rigid;
     /// Σ_k Σ e_k(i) × p_k(n−i) over 0 < i ≤ n: the part of the moment that lower orders make.
     fn moment<S: Simd>(simd: S, q: &[Self::Natural], p: &[Self::Directors], n: usize) -> Self::Moment;
+    /// The first of order n + 2, and the second of order n, of bodies on which nothing acts but their weight.
+    #[inline(always)]
+    fn alone<S: Simd>(
+        &self,
+        simd: S,
+        q: &[Self::Natural],
+        p: &[Self::Directors],
+        n: usize,
+        kappa: f64,
+    ) -> (Self::Rigid, Self::Moment) {
+        (Self::gram(simd, q, n + 2, kappa), Self::moment(simd, q, p, n))
+    }
     /// No moment.
     fn no_moment() -> Self::Moment;
     /// Right-hand sides that correct positions.

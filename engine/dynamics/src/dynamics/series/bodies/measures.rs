@@ -7,8 +7,20 @@ use super::kernels::Measures;
 use super::pair::{Pair, each};
 use super::planar::Planar;
 use super::single::Single;
-use crate::dynamics::series::lanes::{Lane, Natural, add_dot, dot, plus};
-use triad_linalg::larger;
+use crate::dynamics::series::lanes::{Lane, Natural, add_dot, dot, plus, times};
+use triad_linalg::{fma, larger};
+
+/// Work of a constant generalized force.
+#[inline(always)]
+fn work<const L: usize>(force: &[Lane<L>], from: &[Lane<L>], to: &[Lane<L>]) -> Lane<L> {
+    let mut work = [0.0; L];
+    for ((force, from), to) in force.iter().zip(from).zip(to) {
+        for l in 0..L {
+            work[l] = fma(force[l], to[l] - from[l], work[l]);
+        }
+    }
+    work
+}
 
 impl<const L: usize> Measures<L> for Bundle<L> {
     fn pace([r, e @ ..]: &Natural<L>, length: f64) -> Lane<L> {
@@ -33,10 +45,7 @@ impl<const L: usize> Measures<L> for Bundle<L> {
 
     #[inline(always)]
     fn twice_kinetic(&self, rate: &Natural<L>) -> Lane<L> {
-        let mut twice = dot(&rate[0], &rate[0]);
-        for l in 0..L {
-            twice[l] /= self.inverse_mass[l];
-        }
+        let mut twice = times(&self.mass, &dot(&rate[0], &rate[0]));
         for k in 0..3 {
             twice = plus(&self.ibar[k], &dot(&rate[1 + k], &rate[1 + k]), &twice);
         }
@@ -45,13 +54,7 @@ impl<const L: usize> Measures<L> for Bundle<L> {
 
     #[inline(always)]
     fn work_of_weight(&self, from: &Natural<L>, to: &Natural<L>) -> Lane<L> {
-        let mut way = to[0];
-        for (way, from) in way.iter_mut().zip(&from[0]) {
-            for l in 0..L {
-                way[l] -= from[l];
-            }
-        }
-        dot(&self.weight, &way)
+        work(self.weight.as_flattened(), from.as_flattened(), to.as_flattened())
     }
 }
 
@@ -75,7 +78,7 @@ impl<const L: usize> Measures<L> for Planar<L> {
 
     #[inline(always)]
     fn work_of_weight(&self, from: &[Pair<L>; 2], to: &[Pair<L>; 2]) -> Lane<L> {
-        each(|l| (0..2).map(|c| self.weight[c][l] * (to[0][c][l] - from[0][c][l])).sum())
+        work(self.weight.as_flattened(), from.as_flattened(), to.as_flattened())
     }
 }
 

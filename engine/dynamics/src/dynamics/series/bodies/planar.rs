@@ -23,20 +23,16 @@ pub struct Planar<const L: usize> {
     poses: [PlanarPose; L],
     height: Lane<L>,
     pub(super) mass: Lane<L>,
-    /// 1/m, or zero for a body on a ground pivot: then 1, the pivot in the body's frame, and on the ground.
+    /// 1/m, or zero for a body about its pivot.
     inverse_mass: Lane<L>,
-    pivoted: Lane<L>,
-    pivot: Pair<L>,
-    ground: Pair<L>,
-    /// From the centre of mass to the pivot, at the point of expansion.
-    arm: Pair<L>,
     pub(super) inertia: Lane<L>,
     regularizing_inertia: Lane<L>,
-    pub(super) weight: Pair<L>,
+    /// The weight, as a generalized force.
+    pub(super) weight: [Pair<L>; 2],
     /// z / (2 |z|²), and the part of z̈ that satisfies z · z = 1.
     dual: Pair<L>,
     particular: Pair<L>,
-    /// 1 / I_g and its root, about the pivot where there is one, δ included.
+    /// 1 / I_g and its root, δ included.
     inverse: Lane<L>,
     root: Lane<L>,
     force: [Pair<L>; 2],
@@ -52,12 +48,10 @@ impl<const L: usize> Planar<L> {
     /// is small, their large parts must not leave their rounding in z · z̈.
     #[inline(always)]
     fn turn(&mut self, z: &Pair<L>, force: &Pair<L>, moment: &Lane<L>) {
-        let about_pivot = cross(&self.arm, force);
         for l in 0..L {
-            let omega = self.inverse[l] * (moment[l] - about_pivot[l]);
-            self.omega[l] += omega;
-            self.solution[0][0][l] += self.inverse_mass[l] * force[0][l] + omega * self.arm[1][l];
-            self.solution[0][1][l] += self.inverse_mass[l] * force[1][l] - omega * self.arm[0][l];
+            self.omega[l] += self.inverse[l] * moment[l];
+            self.solution[0][0][l] += self.inverse_mass[l] * force[0][l];
+            self.solution[0][1][l] += self.inverse_mass[l] * force[1][l];
             self.solution[1][0][l] = self.particular[0][l] - self.omega[l] * z[1][l];
             self.solution[1][1][l] = self.particular[1][l] + self.omega[l] * z[0][l];
         }
@@ -65,8 +59,8 @@ impl<const L: usize> Planar<L> {
 }
 
 impl<const L: usize> Bodies<L> for Planar<L> {
-    /// Of z · z = 1, and of what holds a pivot.
-    type Rigid = (Lane<L>, Pair<L>);
+    /// Of z · z = 1.
+    type Rigid = Lane<L>;
     type Moment = Lane<L>;
     type Directors = Pair<L>;
     type Mobility = Pair<L>;
@@ -83,13 +77,9 @@ impl<const L: usize> Bodies<L> for Planar<L> {
             height: [0.0; L],
             mass: [1.0; L],
             inverse_mass: [1.0; L],
-            pivoted: [0.0; L],
-            pivot: zeros,
-            ground: zeros,
-            arm: zeros,
             inertia: [1.0; L],
             regularizing_inertia: [0.0; L],
-            weight: zeros,
+            weight: [zeros; 2],
             dual: zeros,
             particular: zeros,
             inverse: [1.0; L],
@@ -105,19 +95,16 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     fn set_body(&mut self, lane: usize, system: &System, body: &RigidBody) {
         self.mass[lane] = body.mass;
         self.inverse_mass[lane] = body.free_inverse_mass();
-        if let Some(pivot) = body.pivot {
-            self.pivoted[lane] = 1.0;
-            for c in 0..2 {
-                (self.pivot[c][lane], self.ground[c][lane]) = (pivot.local[c], pivot.ground[c]);
-            }
-        }
         self.inertia[lane] = body.ibar[0];
         self.regularizing_inertia[lane] = body.regularizing_inertia;
+        let Some(pose) = body.planar_pose else { return };
+        (self.poses[lane], self.height[lane]) = (pose, pose.height);
+        let (weight, center) = (system.model.gravity * body.mass, pose.directors * body.center());
+        let of_director =
+            [center[0] * weight[0] + center[1] * weight[1], center[0] * weight[1] - center[1] * weight[0]];
         for c in 0..2 {
-            self.weight[c][lane] = body.mass * system.model.gravity[c];
-        }
-        if let Some(pose) = body.planar_pose {
-            (self.poses[lane], self.height[lane]) = (pose, pose.height);
+            self.weight[0][c][lane] = weight[c];
+            self.weight[1][c][lane] = of_director[c];
         }
     }
 
@@ -232,15 +219,12 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     #[inline(always)]
     fn linearize(&mut self, q: &[Pair<L>; 2]) {
         let z = &q[1];
-        self.arm = turned(&self.pivot, z);
         for l in 0..L {
             let square = z[0][l] * z[0][l] + z[1][l] * z[1][l];
             let half = 0.5 / square;
             self.dual[0][l] = half * z[0][l];
             self.dual[1][l] = half * z[1][l];
-            let [x, y] = self.arm.map(|s| s[l]);
-            let about_pivot = self.mass[l] * (x * x + y * y);
-            self.inverse[l] = 1.0 / (self.inertia[l] * square + about_pivot + self.regularizing_inertia[l]);
+            self.inverse[l] = 1.0 / (self.inertia[l] * square + self.regularizing_inertia[l]);
             self.root[l] = self.inverse[l].sqrt();
         }
     }
@@ -248,11 +232,8 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     #[inline(always)]
     fn half_mobility(&self, slot: &FeatureSlot<L>, q: &[Pair<L>; 2]) -> Pair<L> {
         let [a, b, _] = slot.local;
-        let ([x, y], [from_x, from_y], root) = (turned(&[a, b], &q[1]), &self.arm, &self.root);
-        [
-            each(|l| root[l] * (slot.point[l] * from_y[l] - y[l])),
-            each(|l| root[l] * (x[l] - slot.point[l] * from_x[l])),
-        ]
+        let ([x, y], root) = (turned(&[a, b], &q[1]), &self.root);
+        [each(|l| -(root[l] * y[l])), each(|l| root[l] * x[l])]
     }
 
     #[inline(always)]
@@ -298,7 +279,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
 
     #[inline(always)]
     fn add_weight(&mut self) {
-        self.force[0] = self.weight;
+        self.force = self.weight;
     }
 
     #[inline(always)]
@@ -307,7 +288,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn begin<S: Simd>(&mut self, _: S, q: &[Pair<L>; 2], (gamma, radial): &Self::Rigid, mut moment: Lane<L>) {
+    fn begin<S: Simd>(&mut self, _: S, q: &[Pair<L>; 2], gamma: &Lane<L>, mut moment: Lane<L>) {
         let z = &q[1];
         for l in 0..L {
             self.particular[0][l] = gamma[l] * self.dual[0][l];
@@ -317,15 +298,8 @@ impl<const L: usize> Bodies<L> for Planar<L> {
             self.omega[l] = 0.0;
             self.taken_out[l] = 0.0;
         }
-        // The pivot stays: r̈ = −s̈ without ω̇, and the body's inertia against that has a moment about the pivot.
-        let particular = turned(&self.pivot, &self.particular);
-        let mut force = self.force[0];
-        for c in 0..2 {
-            for l in 0..L {
-                self.solution[0][c][l] = radial[c][l] - particular[c][l];
-                force[c][l] -= self.mass[l] * self.solution[0][c][l];
-            }
-        }
+        self.solution[0] = [[0.0; L]; 2];
+        let force = self.force[0];
         self.turn(z, &force, &moment);
     }
 
@@ -355,21 +329,17 @@ impl<const L: usize> Bodies<L> for Planar<L> {
 
     #[inline(always)]
     fn director_forces<S: Simd>(&self, _: S) -> Pair<L> {
-        let ([a, b], [at_rest, turning]) = (&self.pivot, &self.solution);
-        let mut p = self.force[1];
+        let ([x, y], mut p) = (&self.solution[1], self.force[1]);
         for l in 0..L {
-            let x = self.mass[l] * at_rest[0][l] - self.force[0][0][l];
-            let y = self.mass[l] * at_rest[1][l] - self.force[0][1][l];
-            // Along z and J z, as in [`Bodies::pull_back`].
-            p[0][l] = p[0][l] + (a[l] * x + b[l] * y) - self.inertia[l] * turning[0][l];
-            p[1][l] = p[1][l] + (a[l] * y - b[l] * x) - self.inertia[l] * turning[1][l];
+            p[0][l] -= self.inertia[l] * x[l];
+            p[1][l] -= self.inertia[l] * y[l];
         }
         p
     }
 
     #[inline(always)]
     fn gram<S: Simd>(_: S, q: &[[Pair<L>; 2]], n: usize, kappa: f64) -> Self::Rigid {
-        (gram(q, n, kappa), [[0.0; L]; 2])
+        gram(q, n, kappa)
     }
 
     #[inline(always)]
@@ -383,17 +353,12 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn position_correction(&self, q: &[Pair<L>; 2]) -> Self::Rigid {
-        let ([r, z], arm) = (q, turned(&self.pivot, &q[1]));
-        let open: Pair<L> =
-            [0, 1].map(|c| each(|l| self.pivoted[l] * (self.ground[c][l] - r[c][l] - arm[c][l])));
-        (each(|l| 1.0 - (z[0][l] * z[0][l] + z[1][l] * z[1][l])), open)
+    fn position_correction(&self, [_, z]: &[Pair<L>; 2]) -> Lane<L> {
+        each(|l| 1.0 - (z[0][l] * z[0][l] + z[1][l] * z[1][l]))
     }
 
     #[inline(always)]
-    fn velocity_correction(&self, q: &[Pair<L>; 2], q_dot: &[Pair<L>; 2]) -> Self::Rigid {
-        let (z, [r_rate, rate], arm) = (&q[1], q_dot, turned(&self.pivot, &q_dot[1]));
-        let open: Pair<L> = [0, 1].map(|c| each(|l| -self.pivoted[l] * (r_rate[c][l] + arm[c][l])));
-        (each(|l| -2.0 * (z[0][l] * rate[0][l] + z[1][l] * rate[1][l])), open)
+    fn velocity_correction(&self, [_, z]: &[Pair<L>; 2], [_, rate]: &[Pair<L>; 2]) -> Lane<L> {
+        each(|l| -2.0 * (z[0][l] * rate[0][l] + z[1][l] * rate[1][l]))
     }
 }

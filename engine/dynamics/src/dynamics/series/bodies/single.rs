@@ -2,7 +2,9 @@
 //! and zero behind the third. What is seldom asked for is left to that bundle.
 
 use super::bundle::Bundle;
-use super::components::{Components, ZERO, combined, cross, gram, moment, narrowed, packed, turned, widened};
+use super::components::{
+    Components, ZERO, alone, combined, cross, directors, gram, moment, narrowed, packed, turned, widened,
+};
 use super::kernels::Bodies;
 use super::slot::FeatureSlot;
 use crate::dynamics::series::lanes::{
@@ -23,7 +25,7 @@ pub struct Single {
     /// 1/m and −Ī of u, v, w, as often as a vector has components.
     inverse_mass: Components,
     minus_ibar: [Components; 3],
-    weight: Components,
+    weight: [Components; 4],
     /// Half the dual basis of the directors, and the columns of I_g⁻¹.
     dual: [Components; 3],
     inverse: [Components; 3],
@@ -70,7 +72,7 @@ impl Bodies<1> for Single {
             plain: Bundle::empty(bodies, slots),
             inverse_mass: ZERO,
             minus_ibar: [ZERO; 3],
-            weight: ZERO,
+            weight: [ZERO; 4],
             dual: [ZERO; 3],
             inverse: [ZERO; 3],
             force: [ZERO; 4],
@@ -83,10 +85,10 @@ impl Bodies<1> for Single {
 
     fn set_body(&mut self, lane: usize, system: &System, body: &RigidBody) {
         self.plain.set_body(lane, system, body);
-        self.inverse_mass = [1.0 / body.mass; 4];
+        self.inverse_mass = [body.free_inverse_mass(); 4];
+        self.weight = self.plain.weight.map(|x| widened(&x));
         for c in 0..3 {
             self.minus_ibar[c] = [-body.ibar[c]; 4];
-            self.weight[c] = body.mass * system.model.gravity[c];
         }
     }
 
@@ -231,7 +233,7 @@ impl Bodies<1> for Single {
 
     #[inline(always)]
     fn add_weight(&mut self) {
-        self.force[0] = self.weight;
+        self.force = self.weight;
     }
 
     #[inline(always)]
@@ -267,6 +269,18 @@ impl Bodies<1> for Single {
     #[inline(always)]
     fn moment<S: Simd>(simd: S, q: &[[Components; 4]], p: &[[Components; 3]], n: usize) -> Components {
         moment(simd, q, p, n)
+    }
+
+    #[inline(always)]
+    fn alone<S: Simd>(
+        &self,
+        simd: S,
+        q: &[[Components; 4]],
+        _: &[[Components; 3]],
+        n: usize,
+        kappa: f64,
+    ) -> ([Components; 2], Components) {
+        alone(simd, q, [&self.minus_ibar, directors(&self.weight)], n, kappa)
     }
 
     #[inline(always)]

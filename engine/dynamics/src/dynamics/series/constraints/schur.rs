@@ -38,7 +38,7 @@ struct Target {
     lane: usize,
     sign: f64,
     offset: usize,
-    /// σ/m, which is the same at every state; zero for a body with a ground pivot.
+    /// σ/m, which is the same at every state; zero for a body about its pivot.
     constant: f64,
 }
 
