@@ -35,6 +35,12 @@ pub trait OdeSystem {
         None
     }
 
+    /// What the energy of the state that was evaluated last is off by where each of its numbers is off by `error`, J: no work need be
+    /// known better.
+    fn energy_of(&self, _error: f64) -> f64 {
+        0.0
+    }
+
     /// Called once after each accepted step, with ẏ = f(t, y) at its end. It may move y onto the constraints; then it must
     /// evaluate ẏ again unless the change was negligible.
     fn after_step(&mut self, t: f64, y: &mut [f64], rate: &mut [f64]);
@@ -49,6 +55,9 @@ impl<S: OdeSystem + ?Sized> OdeSystem for &mut S {
     }
     fn power_at(&mut self, t: f64, y: &[f64]) -> Option<f64> {
         (**self).power_at(t, y)
+    }
+    fn energy_of(&self, error: f64) -> f64 {
+        (**self).energy_of(error)
     }
     fn reach(&mut self, t: f64, y: &[f64]) -> bool {
         (**self).reach(t, y)

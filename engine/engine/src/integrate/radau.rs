@@ -226,13 +226,17 @@ impl Radau {
     }
 
     /// Error of the work of what changes the energy in a step of size h, relative to what it may be: a driver may oscillate where
-    /// the coordinates hardly move.
+    /// the coordinates hardly move. Work that begins within the step is measured by what the tolerance leaves open anyway: beside none
+    /// before it, any would be too much, however short the step.
     fn work_error(&mut self, system: &mut impl OdeSystem, h: f64) -> f64 {
         let Some(power) = self.power else { return 0.0 };
         let [off, turnover] = self.stages.find_power(system, &self.last, h, power);
         self.new_turnover = self.turnover + turnover;
         let may_be = (WORK_TOLERANCE.0 * self.estimated).clamp(WORK_TOLERANCE.1, WORK_TOLERANCE.2);
-        if off == 0.0 { 0.0 } else { off / (may_be * self.new_turnover) }
+        if off == 0.0 {
+            return 0.0;
+        }
+        off / (may_be * self.new_turnover).max(system.energy_of(self.estimated))
     }
 
     /// (μ I − J)⁻¹ (ẋ − p'(0) / h) with ẋ in `trial_rate`, the real μ and the slope p' of the stages. Returns its size.

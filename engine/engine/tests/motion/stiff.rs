@@ -6,7 +6,9 @@
 use crate::common::{problem, random_scene};
 use triad_engine::catalogue;
 use triad_engine::run::{Frame, Simulation};
-use triad_engine::scene::{ConstraintMethod, Coordinates, IntegratorKind, Scene};
+use triad_engine::scene::{
+    Body, ConstraintMethod, Coordinates, Driver, GROUND, IntegratorKind, Joint, Motion, Scene,
+};
 
 /// A problem by an integrator, cut short.
 fn by(name: &str, integrator: IntegratorKind, tolerance: f64, duration: f64) -> Scene {
@@ -70,6 +72,28 @@ fn a_mechanism_that_drivers_move_completely_runs_in_independent_coordinates() {
             series.advance_to(0.37 * duration).unwrap();
             assert!(apart(&looked.frame(), &series.frame()) < 1e-9);
         }
+    }
+}
+
+/// A driver that waits does no work until it begins. The last step of rest ends there, not an instant later: what it does in that
+/// instant is beyond all measure beside nothing.
+#[test]
+fn a_driver_that_waits_lets_the_stiff_method_go_on() {
+    for start in [0.1, 0.15, 0.3] {
+        let mut scene = Scene::new("a driver that waits").duration(1.0).integrator(IntegratorKind::Radau);
+        let crank = scene.add(Body::rod("crank", 1.0, [0.0; 3], [1.0, 0.0, 0.0]));
+        let rod = scene.add(Body::rod("rod", 1.0, [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]));
+        let pin = Joint::revolute("pin", GROUND, crank.clone()).at([0.0; 3]).about([0.0, 0.0, 1.0]);
+        let pin = scene.add(pin);
+        scene.add(Joint::revolute("elbow", crank, rod).at([1.0, 0.0, 0.0]).about([0.0, 0.0, 1.0]));
+        scene.add(Driver::angle("motor", pin, Motion::SmoothStep { from: 0.0, to: 0.7, start, end: 0.7 }));
+        let (frame, run) = end(&scene);
+        let summary = run.summary();
+        println!("{start}: {} steps, {} rejected", summary.steps, summary.rejected);
+        assert!(summary.rejected < 25, "{start}: {summary:?}");
+        scene.simulation.integrator = IntegratorKind::Taylor;
+        scene.simulation.tolerance = 1e-12;
+        assert!(apart(&frame, &end(&scene).0) < 1e-6);
     }
 }
 

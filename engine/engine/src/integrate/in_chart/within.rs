@@ -136,6 +136,14 @@ impl OdeSystem for InCoordinates<'_> {
         })
     }
 
+    /// Of all its mass, moving as fast as it does, and lifted.
+    fn energy_of(&self, error: f64) -> f64 {
+        let Mechanism { system, state, .. } = &*self.mechanism;
+        let mass: f64 = system.bodies.iter().map(|body| body.mass).sum();
+        let speed = (2.0 * state.kinetic_energy(system) / mass).sqrt() + error;
+        mass * (speed + system.model.gravity.norm() * system.length) * error
+    }
+
     fn after_step(&mut self, _: f64, _: &mut [f64], _: &mut [f64]) {
         // The end of the step was evaluated last: its angles are in place.
         if let Some(end) = self.at.and_then(|stage| self.at_stages.get(stage)) {
