@@ -24,6 +24,8 @@ mod acting;
 
 mod expand;
 
+mod work;
+
 mod projection;
 
 mod transport;
@@ -89,6 +91,8 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     next_break: f64,
     /// Coefficients of the power of drivers and of loads without potential, if there are any.
     power: Vec<f64>,
+    /// A copy that evaluates it within steps.
+    meter: Option<Box<Self>>,
     schur: Schur,
     /// Coefficients of λ, order by order; in each, solver rows stand where the factor has them.
     lambda: Vec<f64>,
@@ -169,6 +173,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             time: 0.0,
             next_break: f64::INFINITY,
             power: vec![0.0; if exchanges { stride } else { 0 }],
+            meter: None,
             angles,
             prescribed,
             loads,

@@ -21,8 +21,8 @@ pub struct Summary {
     pub energy: f64,
     /// Work of drivers and of loads without potential since the start, J.
     pub work: f64,
-    /// Energy less that of the start and the work since, J: zero but for errors. Work is summed up beside the motion, less precisely:
-    /// where drivers leave little to integrate, this is its error rather than that of the motion.
+    /// Energy less that of the start and the work since, J: zero but for errors. Where drivers leave nothing to integrate, it is that of
+    /// their work, which is as exact as the tolerance asks.
     pub energy_drift: f64,
     /// Largest |Φ|.
     pub position_violation: f64,

@@ -13,10 +13,6 @@ use crate::problem::Problem;
 
 /// Most joints that are named at singular positions.
 const NAMES: usize = 8;
-/// A drift of so many estimated errors of the energy is not theirs.
-const EXPLAINED: f64 = 10.0;
-/// A drift that is no more than this part of energy and work is too small to be told from rounding.
-const SLIGHT: f64 = 1e-9;
 
 /// What is known of a run besides its own state.
 pub(super) struct Found<'a> {
@@ -129,25 +125,9 @@ fn accuracy(s: &Summary, reactions: Option<ReactionErrors>) -> String {
     line
 }
 
-/// The energy, and what it drifts by. Where the motion is known to give it far better, that is what the work misses, which is summed up
-/// beside the motion: of driven mechanisms, whose motion is as good as exact.
-fn energy(s: &Summary) -> String {
-    let line = format!("  energy                 {:.9} J, ", s.energy);
-    let slight = SLIGHT * (s.energy.abs() + s.work.abs());
-    match s.error {
-        Some(error) if s.work != 0.0 && s.energy_drift.abs() > slight + EXPLAINED * error.energy => format!(
-            "{line}right to about {:.0e} J; the work up to here, {:.6} J, is summed up to within {:.0e} J",
-            error.energy,
-            s.work,
-            s.energy_drift.abs()
-        ),
-        _ => format!("{line}drift {:.2e} J", s.energy_drift),
-    }
-}
-
 fn figures(s: &Summary, verified: Option<&Verification>) -> Vec<String> {
     let mut lines = vec![
-        energy(s),
+        format!("  energy                 {:.9} J, drift {:.2e} J", s.energy, s.energy_drift),
         format!(
             "  constraint violation   {:.2e} position, {:.2e} velocity",
             s.position_violation, s.velocity_violation

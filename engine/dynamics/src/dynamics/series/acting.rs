@@ -1,5 +1,4 @@
-//! What acts on the bodies besides the joints' multipliers of the current order: loads, drivers, earlier multipliers; and
-//! the power of what drivers and loads bring in — eq. (11.8).
+//! What acts on the bodies besides the joints' multipliers of the current order: loads, drivers, earlier multipliers.
 
 use super::{Bodies, Series};
 use crate::dynamics::elimination::TwistJacobian;
@@ -40,24 +39,6 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     pub(super) fn prepare_prescribed(&mut self, m: usize, factor: f64) {
         let (q, stride) = (&self.q, self.stride);
         self.prescribed.prepare::<L, B>(m, factor, |b, i| &q[b * stride + i]);
-    }
-
-    /// Finds the power of drivers and of loads without potential, from the series up to order `order`.
-    #[inline(always)]
-    pub(super) fn find_power(&mut self, order: usize) {
-        let (q, stride, lambda, rows) = (&self.q, self.stride, &self.lambda, self.correction.len());
-        let coefficient = |b: usize, i: usize| &q[b * stride + i];
-        let multiplier = |i: usize, row: usize| lambda[i * rows + row];
-        self.power.fill(0.0);
-        for (n, power) in self.power.iter_mut().enumerate().take(order.saturating_sub(1)) {
-            *power = self.loads.power::<L, B>(n, coefficient)
-                + self.prescribed.power::<L, B>(n, coefficient, multiplier);
-        }
-    }
-
-    /// Work of drivers and of loads without potential in a time τ after the point of the last expansion, J.
-    pub fn work(&self, tau: f64) -> f64 {
-        self.power.iter().enumerate().rev().fold(0.0, |sum, (n, p)| (sum + p / (n + 1) as f64) * tau)
     }
 
     /// Multipliers of the solver rows a time τ after the point of the last expansion, from the series up to order `order` of

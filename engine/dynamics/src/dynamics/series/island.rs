@@ -103,6 +103,12 @@ impl IslandSeries {
         with!(&mut self.0, s => s.carry_errors(system));
     }
 
+    /// From now on knows the power of drivers and of loads without potential as well as the motion, if there is any; `turns` are the
+    /// angles of joints at the start, `left_out` the rows that are.
+    pub fn measure_power(&mut self, system: &System, turns: &[f64], left_out: &[SolverRow]) {
+        with!(&mut self.0, s => s.measure_power(system, turns, left_out));
+    }
+
     /// When the error became too large to be carried, s.
     pub fn error_lost(&self) -> Option<f64> {
         with!(&self.0, s => s.error_lost())

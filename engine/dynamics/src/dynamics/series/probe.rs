@@ -38,6 +38,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Whether rows that hardly hold are kept: see [`crate::dynamics::elimination::Elimination::set_resolving`].
     pub fn set_resolving(&mut self, resolving: bool) {
         self.resolving = resolving;
+        if let Some(meter) = &mut self.meter {
+            meter.set_resolving(resolving);
+        }
         if let Some(transport) = &mut self.transport {
             transport.set_resolving(resolving);
         }

@@ -2,6 +2,7 @@
 
 use super::lanes::largest;
 use super::recurrence::real;
+use super::work::Taken;
 use super::{Bodies, Series};
 use crate::newton::{Ending, Projectable, Projected, project_positions, project_velocities, rules};
 use pulp::{Arch, Simd, WithSimd};
@@ -167,9 +168,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 && k > MIN_ORDER
                 && s.reached(k - 1, allowance).min(s.reached(k, allowance)) >= left
         });
-        if !self.power.is_empty() {
-            self.find_power(expanded);
-        }
+        self.find_power(expanded);
         let (natural, order) = self.reach(expanded, allowance);
         if plan.dry_run {
             return SeriesStep {
@@ -202,6 +201,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                     // The projection says nothing about rows that are left out of it.
                     let proven = closed && !self.regularized && !self.rows_left_out;
                     let finite = self.is_finite();
+                    self.complete_power(Taken { start, h, order, terms: expanded - 1 }, plan.tolerance);
                     self.carry_over(start, h, order, plan.length, time == end && end < plan.end);
                     let far = moved.is_nan() || moved > MAX_VIOLATION * plan.tolerance;
                     return SeriesStep {

@@ -103,6 +103,7 @@ impl IslandStepper {
         if whole.model.settings.error_estimate {
             series.carry_errors(solved);
         }
+        series.measure_power(solved, turns, &dependent);
         series.linearize();
         let tolerance = if redundant { tolerance.max(MIN_TOLERANCE_REDUNDANT) } else { tolerance };
         let (length, bodies, pivots) = (system.length, system.bodies.len(), rowless(solved));
