@@ -18,4 +18,6 @@ pub mod rank;
 
 pub mod tangent;
 
+pub mod turns;
+
 pub use error::{ConstraintError, quoted};

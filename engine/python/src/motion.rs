@@ -208,8 +208,7 @@ impl Motion {
     /// How far the constraints are open at all outputs: the largest |Φ|.
     fn violations(&self, py: Python<'_>) -> PyResult<Numbers> {
         let of = |state: &StateView<'_>| {
-            let phi = crate::system::phi(state.system(), state.q(), state.time());
-            Ok(phi.into_iter().fold(0.0, |most: f64, x| most.max(x.abs())))
+            Ok(state.constraints().into_iter().fold(0.0, |most: f64, x| most.max(x.abs())))
         };
         Ok(vector(py, self.at_outputs(py, of)?))
     }

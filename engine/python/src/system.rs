@@ -7,6 +7,7 @@ use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use serde_json::json;
 use std::collections::BTreeMap;
+use triad_dynamics::constraints::turns;
 use triad_dynamics::equations::augmented::{self, AugmentedSystem};
 use triad_dynamics::equations::jacobian::Jacobian;
 use triad_dynamics::equations::{self, column_names, row_names};
@@ -29,12 +30,7 @@ type Sparse = (Py<PyAny>, Py<PyAny>, Numbers, (usize, usize));
 /// Numbers from Python.
 type Given<'py> = PyReadonlyArray1<'py, f64>;
 
-/// Φ of all rows at positions q and time t, s.
-pub fn phi(system: &EngineSystem, q: &[f64], t: f64) -> Vec<f64> {
-    equations::constraints(system, &at(system, q, None, t))
-}
-
-/// A state; without velocities one at rest.
+/// A state; without velocities one at rest. Whole turns of angles, which q does not tell, are those with which the rows hold best.
 fn at(system: &EngineSystem, q: &[f64], v: Option<&[f64]>, t: f64) -> State {
     let rest;
     let v = if let Some(v) = v {
@@ -43,7 +39,12 @@ fn at(system: &EngineSystem, q: &[f64], v: Option<&[f64]>, t: f64) -> State {
         rest = vec![0.0; q.len()];
         &rest
     };
-    State::at(system, t, q, v)
+    let mut state = State::at(system, t, q, v);
+    if !state.angles().is_empty() {
+        turns::count(system, &mut state);
+        state.set(system, t, q, v);
+    }
+    state
 }
 
 #[pymethods]
@@ -85,7 +86,8 @@ impl System {
 
     /// Φ(q, t).
     fn phi(&self, py: Python<'_>, q: Given<'_>, t: f64) -> PyResult<Numbers> {
-        Ok(vector(py, phi(self.run.system(), self.positions(&q)?, t)))
+        let system = self.run.system();
+        Ok(vector(py, equations::constraints(system, &at(system, self.positions(&q)?, None, t))))
     }
 
     /// Φ_q(q, t).

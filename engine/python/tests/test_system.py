@@ -76,3 +76,31 @@ def test_states_of_a_wrong_kind_are_refused():
     assert found.value.code == "wrong-size"
     with pytest.raises(triad.TriadError, match=r"v\[0\] is NaN"):
         system.gamma(system.q0, np.full_like(system.v0, np.nan))
+
+
+def test_whole_turns_are_those_with_which_the_rows_hold():
+    """A motor that turns a gear, and a nut that has gone several turns along its screw."""
+
+    def body(name, x):
+        return {"name": name, "mass": 1, "position": [x, 0, 0], "inertia": {"principal": [0.1, 0.1, 0.2]}}
+
+    def joint(name, kind, other, of, x, **more):
+        return {"name": name, "type": kind, "body_i": other, "body_j": of, "point": [x, 0, 0], "axis": [0, 0, 1], **more}
+
+    scene = {
+        "name": "turns",
+        "gravity": [0, 0, 0],
+        "bodies": [body("a", 0), body("b", 1), {**body("nut", 2), "velocity": [0, 0, 2.4], "angular_velocity": [0, 0, 8]}],
+        "joints": [
+            joint("pin-a", "revolute", "ground", "a", 0),
+            joint("pin-b", "revolute", "ground", "b", 1),
+            joint("thread", "screw", "ground", "nut", 2, pitch=0.3),
+            {"name": "gear", "type": "gear", "joints": ["pin-a", "pin-b"], "ratio": 1.7},
+        ],
+        "drivers": [{"name": "motor", "type": "angle", "joint": "pin-a", "motion": {"kind": "ramp", "start": 0, "rate": 9}}],
+        "simulation": {"duration": 5, "every": 1},
+    }
+    system, r = triad.System(scene), triad.run(scene)
+    assert r.violations.max() < 1e-9
+    for t, q in zip(r.t, r.q):
+        assert np.abs(system.phi(q, t)).max() < 1e-9, t

@@ -11,6 +11,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::Rank;
 use triad_dynamics::dynamics::elimination::{Accelerations, Elimination, Multipliers};
+use triad_dynamics::equations;
 use triad_dynamics::equations::jacobian::Jacobian;
 use triad_dynamics::model::{BodyRef, ModelMarker};
 use triad_dynamics::state::{BodyFrame, State};
@@ -222,6 +223,12 @@ impl<'a> StateView<'a> {
     /// What is known at this state without solving.
     pub(crate) fn known(&self) -> &State {
         &self.cached.state
+    }
+
+    /// Φ of all rows.
+    #[doc(hidden)]
+    pub fn constraints(&self) -> Vec<f64> {
+        equations::constraints(self.run.system(), &self.cached.state)
     }
 
     /// Rank of the joint rows near the start — THEORY section 8.

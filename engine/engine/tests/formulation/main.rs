@@ -10,3 +10,4 @@ mod matrices;
 mod reactions;
 mod rows;
 mod shared;
+mod turns;

@@ -37,7 +37,8 @@ class System:
         self.v0: Floats = self._system.v0()
 
     def phi(self, q: ArrayLike, t: float = 0.0) -> Floats:
-        """Φ(q, t) of all rows."""
+        """Φ(q, t) of all rows. Whole turns of joint angles, which q does not tell, are those with which screws, drivers and gears
+        hold best; where none tells them, those of the start."""
         return self._system.phi(_numbers(q), t)
 
     @overload
