@@ -5,6 +5,7 @@ use crate::error::EngineError;
 use crate::reactions::matrices::{self, Symmetric};
 use crate::reactions::report::{Convention, ReactionReport, report};
 use crate::reactions::{self, JointMultipliers};
+use crate::scene::ConstraintMethod;
 use nalgebra::Vector3;
 use std::borrow::Cow;
 use std::sync::{Mutex, OnceLock, PoisonError};
@@ -14,6 +15,7 @@ use triad_dynamics::dynamics::elimination::{Accelerations, Elimination, Multipli
 use triad_dynamics::equations;
 use triad_dynamics::equations::jacobian::Jacobian;
 use triad_dynamics::model::{BodyRef, ModelMarker};
+use triad_dynamics::newton::{project_positions, project_velocities, rules};
 use triad_dynamics::state::{BodyFrame, State};
 use triad_dynamics::system::System;
 
@@ -310,7 +312,26 @@ impl<'a> StateView<'a> {
     ///
     /// [`EngineError::Uniqueness`] where it cannot be decided which of them are unique.
     pub fn reactions(&self, convention: Convention) -> Result<ReactionReport, EngineError> {
-        Ok(report(&self.solved().multipliers, convention)?)
+        let Some(held) = self.held() else { return Ok(report(&self.solved().multipliers, convention)?) };
+        let solver = held.solver(self.run, None);
+        Ok(report(&solver.last_accelerations(self.system(), &held.state).multipliers, convention)?)
+    }
+
+    /// The state moved onto the constraints, where rows depend on others: as far off as a tolerance allows, some do not, and what they
+    /// leave open would seem to be determined. `None` also where there is no such state nearby, and where a method leaves joints open.
+    fn held(&self) -> Option<CachedState> {
+        let run = self.run;
+        let closes = [ConstraintMethod::Projection, ConstraintMethod::Partitioning];
+        if run.rank().dependent.is_empty() || !closes.contains(&run.model().settings.constraint_method) {
+            return None;
+        }
+        let (mut mechanism, mut y) = (run.mechanism.clone(), self.cached.y.clone());
+        mechanism.state = self.cached.state.clone();
+        let (length, mut on) = (mechanism.system.length, mechanism.projectable(&mut y));
+        let closed = project_positions(&mut on, &rules::ASSEMBLY_POSITIONS, length).has_converged();
+        mechanism.set_state(self.cached.time, &y);
+        project_velocities(&mut mechanism.projectable(&mut y), &rules::ASSEMBLY_VELOCITIES, length);
+        closed.then(|| CachedState::new(self.cached.time, &y, &mechanism.state))
     }
 
     /// The augmented matrix of the equations of motion — eq. (6.6).

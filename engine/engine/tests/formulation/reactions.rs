@@ -1,7 +1,7 @@
 //! Reactions against references and equilibrium, and what is told of their uniqueness.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
-use crate::common::{random_scene, start, table};
+use crate::common::{problem, random_scene, start, table};
 use nalgebra::Vector3;
 use triad_engine::analysis::check::check;
 use triad_engine::catalogue;
@@ -282,6 +282,37 @@ fn the_bricard_loop_shares_one_row_among_all_joints() {
     }
     apply_remedies(&scene);
     apply_remedies(&catalogue::scene("n-four-bar:1").unwrap());
+}
+
+/// Rows that depend on others do so where the joints are closed. Between steps they are open by as much as the tolerance allows, which
+/// is nothing that a reaction could be determined by.
+#[test]
+fn what_is_unique_does_not_change_with_the_tolerance_nor_along_the_motion() {
+    let flags = |report: &ReactionReport| -> Vec<bool> {
+        report.reactions.iter().flat_map(|r| r.force.iter().chain(&r.moment)).map(|c| c.unique).collect()
+    };
+    for (scene, frame) in [
+        (catalogue::scene("bricard").unwrap(), ExpressedIn::Joint),
+        (catalogue::scene("bricard").unwrap(), ExpressedIn::Body),
+        (problem("sarrus/passages"), ExpressedIn::Joint),
+    ] {
+        let convention = Convention { expressed_in: frame, ..Convention::default() };
+        let expected = flags(&Simulation::new(&scene).unwrap().reactions(convention).unwrap());
+        for tolerance in [1e-3, 1e-4, 1e-6] {
+            let mut scene = scene.clone();
+            scene.simulation.tolerance = tolerance;
+            let mut run = Simulation::new(&scene).unwrap();
+            let mut other = Vec::new();
+            for k in 1..=60 {
+                run.advance_to(f64::from(k) / 61.3 * run.duration()).unwrap();
+                if flags(&run.reactions(convention).unwrap()) != expected {
+                    other.push(k);
+                }
+            }
+            println!("{} at {tolerance:.0e}: other {other:?}", scene.name);
+            assert!(other.is_empty(), "{} at {tolerance:.0e}: {other:?}", scene.name);
+        }
+    }
 }
 
 /// The null space of the solver's rows tells the same as that of all rows of Φ_q, rigid-body rows included.
