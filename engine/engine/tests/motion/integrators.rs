@@ -286,3 +286,38 @@ fn what_is_looked_at_between_steps_does_not_change_a_run_in_a_chart() {
         assert_eq!(format!("{frame:?}"), format!("{:?}", looked.frame()), "{integrator:?}");
     }
 }
+
+/// Feedback holds the constraints as loosely as the tolerance lets it, and passes no singular position unharmed. A motion that goes astray
+/// by more than ten tolerances is told: by an error of its size, or by a doubt.
+#[test]
+fn a_motion_that_feedback_lets_go_astray_says_so() {
+    let feedback = ConstraintMethod::Baumgarte { alpha: 10.0, beta: 10.0 };
+    let (mut told, mut doubted) = (0, 0);
+    for name in ["n-four-bar:1", "n-four-bar:2", "n-four-bar:3", "crank-rocker", "spatial-slider-crank"] {
+        let exact = treated(scene(name, 3.0), IntegratorKind::Taylor, ConstraintMethod::Projection);
+        for integrator in [IntegratorKind::Dop853, IntegratorKind::Dopri5, IntegratorKind::Ode45] {
+            for tolerance in [1e-3, 1e-4, 1e-5, 1e-6] {
+                let mut scene = treated(scene(name, 3.0), integrator, feedback);
+                scene.simulation.tolerance = tolerance;
+                let (mut run, mut exact) =
+                    (Simulation::new(&scene).unwrap(), Simulation::new(&exact).unwrap());
+                for time in [0.5, 1.0, 1.5, 2.0, 2.5, 3.0] {
+                    run.advance_to(time).unwrap();
+                    exact.advance_to(time).unwrap();
+                    let (error, summary) = (apart(&run.frame(), &exact.frame()), run.summary());
+                    let estimated = summary.error.map_or(f64::NAN, |error| error.position);
+                    let what = format!(
+                        "{name} by {integrator:?} at {tolerance:.0e}, {time} s: {error:.1e}, told {estimated:.1e}"
+                    );
+                    if error > 10.0 * tolerance && summary.doubts.is_empty() {
+                        assert!(estimated > error / 3.0, "{what}");
+                        told += 1;
+                    }
+                    doubted += usize::from(error > 10.0 * tolerance && !summary.doubts.is_empty());
+                }
+            }
+        }
+    }
+    println!("astray: {told} times told, {doubted} times doubted");
+    assert!(told > 0 && doubted > 0, "{told}, {doubted}");
+}
