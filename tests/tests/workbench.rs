@@ -272,3 +272,35 @@ fn a_drift_of_the_energy_is_what_the_tolerance_allows() {
         assert!(drift.abs() < least, "at {tolerance}: {energy}");
     }
 }
+
+/// What a sweep tells has its errors beside it, whatever is chosen.
+#[test]
+fn a_sweep_tells_the_errors_of_what_it_tells() {
+    let words = [
+        "sweep",
+        "simple-pendulum",
+        "--vary",
+        "/gravity/1=-9.9:-9.7:3",
+        "--until",
+        "1",
+        "--outputs",
+        "joints",
+    ];
+    let told = String::from_utf8(run(&words).stdout).unwrap();
+    let line = told.lines().find(|line| line.starts_with("  error ")).unwrap_or_else(|| panic!("{told}"));
+    assert!(
+        line.contains("positions right to about ") && line.ends_with("the greatest of all runs"),
+        "{line}"
+    );
+    let (_, found) = run_json(&words);
+    let names: Vec<&str> =
+        found["columns"].as_array().unwrap().iter().map(|column| column["name"].as_str().unwrap()).collect();
+    assert!(names[0].starts_with("pin.") && names.contains(&"position_error"), "{names:?}");
+    let place = names.iter().position(|name| *name == "position_error").unwrap();
+    let errors: Vec<f64> =
+        found["runs"].as_array().unwrap().iter().map(|run| run["outputs"][place].as_f64().unwrap()).collect();
+    assert!(errors.iter().all(|error| *error > 0.0 && *error < 1e-5), "{errors:?}");
+    // None are told that are not known.
+    let bare = String::from_utf8(run(&[&words[..], &["--no-estimate"]].concat()).stdout).unwrap();
+    assert!(!bare.contains("  error "), "{bare}");
+}

@@ -9,8 +9,10 @@ use clap::Args;
 use serde_json::{Value, json};
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
-use triad_engine::scene::{IntegratorKind, Output, Scene};
-use triad_lab::sweep::{Sweep, SweepError, SweepPlan, SweepRun, Values, Variation, Watch, svg, sweep};
+use triad_engine::scene::{IntegratorKind, Output, OutputKind, Scene};
+use triad_lab::sweep::{
+    Reached, Sweep, SweepError, SweepPlan, SweepRun, Values, Variation, Watch, svg, sweep,
+};
 
 use crate::cli::choice;
 use crate::cli::clock::Clock;
@@ -56,7 +58,8 @@ pub(in crate::cli) struct Options {
     /// Carry no estimate of the error along, which takes a third of the time: doubts that follow from it are then missing.
     #[arg(long)]
     no_estimate: bool,
-    /// What is told of each run at its end, instead of the scene's choice; see `triad run --help`.
+    /// What is told of each run at its end, instead of the scene's choice; see `triad run --help`. Estimated errors stand
+    /// beside it, unless --no-estimate leaves them out.
     #[arg(long, value_name = "WORD,…", value_delimiter = ',', value_parser = choice::output)]
     outputs: Vec<Output>,
     /// Write all runs as CSV.
@@ -158,6 +161,10 @@ fn plan(options: &Options) -> Result<SweepPlan, Problem> {
     if !options.outputs.is_empty() {
         settings.outputs.clone_from(&options.outputs);
         with_errors(settings)?;
+    }
+    // No number without its error: of all that a run costs, they take one part in a hundred.
+    if settings.error_estimate && settings.outputs.iter().all(|output| output.kind != OutputKind::Errors) {
+        settings.outputs.push(OutputKind::Errors.into());
     }
     let varied = options.vary.iter().map(|text| variation(&scene, text)).collect::<Result<_, _>>()?;
     Ok(SweepPlan { varied, samples: options.samples, seed: options.seed, ..SweepPlan::new(scene) })
@@ -285,11 +292,55 @@ fn print(scene: &Scene, found: &Sweep, left: usize) {
             counted(doubted, "run")
         ));
     }
+    if let Some(line) = errors(found) {
+        print_line(&line);
+    }
+    print_columns(found, &reached);
+    for run in found.runs.iter().filter(|run| run.result.is_err()).take(TOLD) {
+        if let Err(error) = &run.result {
+            print_line(&format!("  run {} with {:?}: {error}", run.index, run.values));
+        }
+    }
+}
+
+/// The greatest errors of all runs; none where they are not estimated.
+fn errors(found: &Sweep) -> Option<String> {
+    let of = |name: &str| {
+        let index = found.columns.iter().position(|column| column.name == name)?;
+        let reached = found.runs.iter().filter_map(|run| run.result.as_ref().ok());
+        Some(reached.filter_map(|end| end.outputs.get(index).copied()).collect::<Vec<f64>>())
+    };
+    let positions = of("position_error")?;
+    let greatest = |errors: &[f64]| errors.iter().copied().fold(0.0, f64::max);
+    let mut line =
+        format!("  error                  positions right to about {:.0e} m", greatest(&positions));
+    for (name, what, unit) in [
+        ("velocity_error", "velocities", "m/s"),
+        ("energy_error", "the energy", "J"),
+        ("force_error", "forces", "N"),
+        ("moment_error", "moments", "N m"),
+    ] {
+        if let Some(errors) = of(name) {
+            let _ = write!(line, ", {what} to {:.0e} {unit}", greatest(&errors));
+        }
+    }
+    line.push_str(": the greatest of all runs");
+    let unknown = positions.iter().filter(|error| error.is_nan()).count();
+    if unknown > 0 {
+        let _ = write!(line, "; unknown of {}", counted(unknown, "run"));
+    }
+    Some(line)
+}
+
+/// The first columns over all runs; errors have a line of their own.
+fn print_columns(found: &Sweep, reached: &[&Reached]) {
     print_line(&format!(
         "  {:<28}{:>15}{:>15}{:>15}{:>15}",
         "at the end", "least", "mean", "greatest", "deviation"
     ));
-    for (index, column) in found.columns.iter().enumerate().take(SHOWN) {
+    let columns = found.columns.iter().enumerate().filter(|(_, column)| !column.name.ends_with("_error"));
+    let count = columns.clone().count();
+    for (index, column) in columns.take(SHOWN) {
         let values: Vec<f64> = reached.iter().filter_map(|end| end.outputs.get(index).copied()).collect();
         let count = values.len().max(1) as f64;
         let mean = values.iter().sum::<f64>() / count;
@@ -305,15 +356,7 @@ fn print(scene: &Scene, found: &Sweep, left: usize) {
             ));
         }
     }
-    if found.columns.len() > SHOWN {
-        print_line(&format!(
-            "  … and {} more; --out writes all",
-            counted(found.columns.len() - SHOWN, "column")
-        ));
-    }
-    for run in found.runs.iter().filter(|run| run.result.is_err()).take(TOLD) {
-        if let Err(error) = &run.result {
-            print_line(&format!("  run {} with {:?}: {error}", run.index, run.values));
-        }
+    if count > SHOWN {
+        print_line(&format!("  … and {} more; --out writes all", counted(count - SHOWN, "column")));
     }
 }
