@@ -1,4 +1,5 @@
-//! Starts that gears pass on: where one of two coupled joints stands says where the other one does, however many turns that is.
+//! Starts that gears pass on: where one of two coupled joints stands says where the other one does, however many turns that is, and
+//! how fast one turns says how fast the other one does.
 
 use super::{JointGeometry, ModelError, ModelJoint, ModelStart};
 use std::f64::consts::PI;
@@ -15,7 +16,7 @@ struct Mesh {
     offset: f64,
 }
 
-/// Adds the angles that gears give to joints without one.
+/// Adds the angles and rates that gears give to joints without one.
 ///
 /// # Errors
 ///
@@ -58,13 +59,42 @@ pub(super) fn pass_on(joints: &[ModelJoint], starts: &mut Vec<ModelStart>) -> Re
         angles[mesh.joints[0]] = Some(joints[mesh.joints[0]].stated);
         reached.push(mesh.joints[0]);
     }
-    for (joint, angle) in angles.into_iter().enumerate().filter(|(_, angle)| angle.is_some()) {
+    let rates = rates(&of_joint, starts);
+    for (joint, (angle, rate)) in angles.into_iter().zip(rates).enumerate() {
         match starts.iter_mut().find(|start| start.joint == joint) {
-            Some(start) => start.angle = angle,
-            None => starts.push(ModelStart { joint, angle, rate: None, slide: None, speed: None }),
+            Some(start) => (start.angle, start.rate) = (angle, rate),
+            None if angle.is_none() && rate.is_none() => {}
+            None => starts.push(ModelStart { joint, angle, rate, slide: None, speed: None }),
         }
     }
     Ok(())
+}
+
+/// The rates of all joints, where they are given or gears give them. Without them the velocities nearest to rest would be taken that keep
+/// the gears, in which other joints turn as well.
+fn rates(of_joint: &[Vec<Mesh>], starts: &[ModelStart]) -> Vec<Option<f64>> {
+    let mut rates = vec![None; of_joint.len()];
+    for start in starts {
+        rates[start.joint] = start.rate;
+    }
+    let mut reached: Vec<usize> = (0..rates.len()).filter(|&joint| rates[joint].is_some()).collect();
+    while let Some(joint) = reached.pop() {
+        for mesh in &of_joint[joint] {
+            let [first, second] = mesh.joints;
+            match (rates[first], rates[second]) {
+                (Some(leads), None) => {
+                    rates[second] = Some(mesh.ratio * leads);
+                    reached.push(second);
+                }
+                (None, Some(follows)) if mesh.ratio != 0.0 => {
+                    rates[first] = Some(follows / mesh.ratio);
+                    reached.push(first);
+                }
+                _ => {}
+            }
+        }
+    }
+    rates
 }
 
 impl Mesh {

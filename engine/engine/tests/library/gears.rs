@@ -154,3 +154,33 @@ fn an_angle_is_counted_from_what_it_is_where_the_bodies_are_stated() {
         near(&angles(&run, &["a"]), &[stated + 4.0], "driven");
     }
 }
+
+/// Three arms in a chain, of which a gear couples the first hinge with the last one: what lies between is at rest relative to the first.
+#[test]
+fn a_gear_passes_the_rate_of_its_joints_on() {
+    let arm = |name: &str, at: f64| {
+        json!({ "name": name, "mass": 1, "position": [at, 0, 0], "center_of_mass": [0.5, 0, 0],
+        "inertia": { "principal": [0.1, 0.1, 0.1] } })
+    };
+    let hinge = |name: &str, [i, j]: [&str; 2], at: f64, start: Value| json!({ "name": name, "type": "revolute", "body_i": i, "body_j": j, "point": [at, 0, 0], "axis": [0, 0, 1], "start": start });
+    let rates_of = |starts: [Value; 3]| {
+        let [a, b, c] = starts;
+        let text = json!({
+            "name": "train", "gravity": [0, 0, 0], "bodies": [arm("first", 0.0), arm("second", 1.0), arm("third", 2.0)],
+            "joints": [
+                hinge("a", ["ground", "first"], 0.0, a), hinge("b", ["first", "second"], 1.0, b), hinge("c", ["second", "third"], 2.0, c),
+                { "name": "mesh", "type": "gear", "joints": ["a", "c"], "ratio": 3 }
+            ]
+        });
+        let run = Simulation::new(&scene(&text)).unwrap();
+        let spins: Vec<f64> = run.frame().bodies.iter().map(|body| body.angular_velocity[2]).collect();
+        [spins[0], spins[1] - spins[0], spins[2] - spins[1]]
+    };
+    near(&rates_of([json!({ "rate": 2 }), json!({}), json!({})]), &[2.0, 0.0, 6.0], "by the first");
+    near(&rates_of([json!({}), json!({}), json!({ "rate": 6 })]), &[2.0, 0.0, 6.0], "by the last");
+    near(
+        &rates_of([json!({ "angle": 1.0, "rate": 2 }), json!({ "rate": -1 }), json!({})]),
+        &[2.0, -1.0, 6.0],
+        "with an angle",
+    );
+}
