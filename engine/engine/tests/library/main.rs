@@ -21,4 +21,5 @@ mod pure;
 mod scene_words;
 mod snapshots;
 mod solution;
+mod steady;
 mod told_of_joints;

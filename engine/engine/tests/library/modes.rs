@@ -7,6 +7,7 @@
     reason = "tests may panic, and write numbers as they were computed elsewhere"
 )]
 
+use serde_json::json;
 use std::f64::consts::TAU;
 use triad_engine::analysis::{Modes, ModesAbout, modes};
 use triad_engine::scene::Scene;
@@ -92,6 +93,26 @@ fn slow_decays_beside_fast_ones_keep_their_digits() {
         let growths: Vec<f64> = found.modes.iter().map(|mode| mode.growth).collect();
         same(&growths, &[fast, slow, pair[0]], 1e-9);
         same(&[TAU * found.modes[2].frequency], &pair[1..], 1e-9);
+    }
+}
+
+/// Masses on equal springs whose dampers differ: all eigenvalues −d/2 ± i √(k − d²/4) have the modulus √k.
+#[test]
+fn equal_springs_with_different_dampers_have_each_mode_once() {
+    let dampings = [0.1, 0.5, 1.0, 3.0, 4.0, 7.0];
+    for count in 2..=dampings.len() {
+        let (mut bodies, mut joints, mut loads) = (Vec::new(), Vec::new(), Vec::new());
+        for (k, damping) in dampings[..count].iter().enumerate() {
+            bodies.push(json!({ "name": format!("b{k}"), "mass": 1, "position": [0, k, 0], "inertia": { "principal": [0.1, 0.1, 0.1] } }));
+            joints.push(json!({ "name": format!("p{k}"), "type": "prismatic", "body_i": "ground", "body_j": format!("b{k}"),
+                "point": [0, k, 0], "axis": [1, 0, 0] }));
+            loads.push(json!({ "name": format!("k{k}"), "type": "slider", "joint": format!("p{k}"), "stiffness": 100, "damping": damping }));
+        }
+        let text = json!({ "name": "row", "gravity": [0, 0, 0], "bodies": bodies, "joints": joints, "loads": loads });
+        let found = modes(&Scene::from_json(&text.to_string()).unwrap(), ModesAbout::Equilibrium).unwrap();
+        let growths: Vec<f64> = found.modes.iter().map(|mode| mode.growth).collect();
+        let expected: Vec<f64> = dampings[..count].iter().rev().map(|damping| -0.5 * damping).collect();
+        same(&growths, &expected, 1e-9);
     }
 }
 

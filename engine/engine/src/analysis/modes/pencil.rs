@@ -18,6 +18,8 @@ const SOLUTIONS: usize = 3;
 const ROUNDS: usize = 3;
 /// Relative distance at which two eigenvalues count as one, with vectors of their own.
 const REPEATED: f64 = 1e-7;
+/// Ratio of two eigenvalues' moduli up to which one half must not end between them.
+const EQUALLY_LARGE: f64 = 1.001;
 /// A correction of an eigenvalue by more than this part of it is a jump to another one, and not taken.
 const JUMP: f64 = 1e-2;
 
@@ -246,9 +248,12 @@ fn spectrum(a: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let (least, most) = (small.first()?.modulus(), large.last()?.modulus());
     let middle = (least * most).sqrt();
     let mut count = small.iter().take_while(|value| value.modulus() < middle).count();
-    // A pair of conjugates is not cut.
-    if small[..count].iter().filter(|value| value.im > 0.0).count()
-        != small[..count].iter().filter(|value| value.im < 0.0).count()
+    // What is equally large, such as a pair of conjugates, is not cut: rounding puts it in another order in the other list, and some
+    // would come twice and others not at all.
+    while (1..small.len()).contains(&count)
+        && [&small, &large]
+            .iter()
+            .any(|list| list[count].modulus() <= EQUALLY_LARGE * list[count - 1].modulus())
     {
         count += 1;
     }
