@@ -145,6 +145,20 @@ impl SystemLoad {
         Some([x, rate, law.value(x, rate, at.time)])
     }
 
+    /// The largest force or moment that it is the sum of at rest, N or N m: rounding is a part of that, even where the sum is zero. Lengths
+    /// are known as well as `reach` is.
+    pub fn largest_part(&self, at: &State, reach: f64) -> f64 {
+        match self {
+            Self::Force { .. } | Self::Moment { .. } => self.given(at).map_or(0.0, |vector| vector.norm()),
+            Self::Spring { law, .. } | Self::Slider { law, .. } => {
+                self.coordinate(at).map_or(0.0, |(x, _)| law.largest_part(x, reach, at.time))
+            }
+            Self::Torsion { law, .. } => {
+                self.coordinate(at).map_or(0.0, |(x, _)| law.largest_part(x, 1.0, at.time))
+            }
+        }
+    }
+
     /// The unit axis in the world that a load about or along a joint acts about or along; zero for other loads.
     pub(crate) fn axis(&self, at: &State) -> Vector3<f64> {
         match self {

@@ -148,6 +148,12 @@ impl ForceLaw {
         self.without_spring(rate, t) - self.stiffness * (x - self.free)
     }
 
+    /// The largest of the parts that it is the sum of at rest, where lengths are known as well as `reach` is.
+    pub(crate) fn largest_part(&self, x: f64, reach: f64, t: f64) -> f64 {
+        let drive = self.drive.as_ref().map_or(0.0, |drive| drive.at(t)[0].abs());
+        drive.max(self.stiffness * x.abs().max(self.free.abs()).max(reach))
+    }
+
     /// −∂f/∂ẋ.
     pub(crate) fn slope(&self, rate: f64) -> f64 {
         let friction = self.friction.map_or(0.0, |friction| {

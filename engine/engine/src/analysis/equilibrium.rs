@@ -7,12 +7,17 @@ use crate::scene::Scene;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use schemars::JsonSchema;
 use serde::Serialize;
+use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::state::BodyFrame;
 
 /// Greatest number of steps of the search, those that were taken back among them.
 const STEPS: usize = 300;
 /// Generalized force, relative to the largest force on a body, below which it counts as zero.
 const BALANCED: f64 = 1e-10;
+/// Part of the largest force that takes part in a balance which rounding leaves.
+const ROUNDED: f64 = 1e-14;
+/// Part of what was left before a step that a step which leads on leaves.
+const STALLED: f64 = 0.1;
 /// Stiffness, relative to the largest, below which the search takes none.
 const SOFTEST: f64 = 1e-9;
 /// Change of forces by a motion, relative to the largest, below which it changes none: what differences leave of zero.
@@ -122,14 +127,17 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
     stage.rest();
     let mut held = Held::new(stage)?;
     let mut reach = LARGEST * stage.mechanism.system.length;
-    let mut steps = 0;
+    let (mut steps, mut before) = (0, f64::INFINITY);
     loop {
         stage.wanted.check()?;
         let multipliers = stage.accelerate().multipliers.solver_rows().to_vec();
         let stiffness = stage.stiffness(&held.basis, &multipliers);
         let (stiffnesses, motions) = eigen(&stiffness);
         let residual = held.along.amax();
-        if residual <= BALANCED * held.largest.max(f64::MIN_POSITIVE) {
+        let rounded = residual <= rounding(stage);
+        let balanced = residual <= BALANCED * held.largest.max(f64::MIN_POSITIVE);
+        // Of rounding no step takes more away; whatever else there is still becomes smaller.
+        if balanced || (rounded && residual > STALLED * before) {
             return found(stage, &held, &stiffnesses, steps);
         }
         let next = if residual.is_finite() {
@@ -138,12 +146,28 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
         } else {
             None
         };
+        before = residual;
         let Some(next) = next else {
+            if rounded {
+                return found(stage, &held, &stiffnesses, steps);
+            }
             let body = stage.foremost(&(&held.basis * &held.along));
             return Err(AnalysisError::NoEquilibrium { iterations: steps, residual, body });
         };
         held = next;
     }
+}
+
+/// Forces and moments below this are the rounding of a balance, N or N m: a part of the largest one that takes part in it. What is left on
+/// a body that springs alone carry is rounding itself, and nothing to compare with.
+pub(super) fn rounding(stage: &Stage) -> f64 {
+    let Mechanism { system, state, .. } = &stage.mechanism;
+    let length = system.length;
+    let reach = state.bodies().iter().fold(length, |reach, at| reach.max(at.q.r.norm()));
+    let weights = system.bodies.iter().map(|body| body.mass * system.model.gravity.norm());
+    let loads = system.loads.iter().map(|load| load.largest_part(state, reach));
+    let inertial = (stage.forces() - stage.loads()).amax();
+    ROUNDED * length.max(1.0) * weights.chain(loads).fold(inertial, f64::max)
 }
 
 /// The position of rest at which the stage is.

@@ -155,7 +155,7 @@ pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Mod
     stage.rest();
     let force = stage.forces();
     let left = basis.tr_mul(&force).amax();
-    if left > UNBALANCED * force.amax() {
+    if left > (UNBALANCED * force.amax()).max(equilibrium::rounding(&stage)) {
         notes.push(format!(
             "the position is not an equilibrium: a generalized force of {left:.3e} N is left, which the linear \
              equations leave out"

@@ -87,3 +87,46 @@ fn modes_are_those_of_the_hanging_chain_and_an_upright_one_is_told_unstable() {
     );
     assert!(error.hint().contains("start nearer to where it comes to rest"));
 }
+
+/// Where springs alone carry a body, nothing acts on it at rest, and what is left is rounding however small: it is at rest all the same.
+#[test]
+fn a_body_that_only_springs_carry_comes_to_rest() {
+    let spring = |name: &str, from: [f64; 3], to: [f64; 3]| {
+        json!({ "type": "spring", "name": name, "body_i": "ground", "body_j": "body", "point_i": from, "point_j": to,
+            "stiffness": 100, "free_length": 0.5 })
+    };
+    let rest = |joints: Value, loads: &[Value], gravity: f64| {
+        let text = json!({ "name": "hung", "gravity": [0, 0, -gravity], "joints": joints, "loads": loads,
+            "bodies": [{ "name": "body", "mass": 2, "inertia": { "principal": [0.1, 0.12, 0.15] } }] });
+        let scene = Scene::from_json(&text.to_string()).unwrap();
+        let found = equilibrium(&scene).unwrap_or_else(|error| panic!("{error}"));
+        assert!(found.stable == Some(true) && found.residual < 1e-11, "{found:?}");
+        assert_eq!(modes(&scene, ModesAbout::Equilibrium).unwrap().notes, Vec::<String>::new());
+        found.bodies[0].position
+    };
+    let slide = json!([{ "name": "guide", "type": "prismatic", "body_i": "ground", "body_j": "body", "point": [0, 0, 0], "axis": [0, 0, 1] }]);
+    for gravity in [9.81, 1.62, 0.0] {
+        let position = rest(slide.clone(), &[spring("above", [0.0, 0.0, 1.0], [0.0; 3])], gravity);
+        assert!((position[2] - (0.5 - 0.02 * gravity)).abs() < 1e-12, "{position:?}");
+        let ends = [
+            ([1.0, 0.0, 1.0], [0.2, 0.0, 0.1]),
+            ([-0.5, 0.8, 1.0], [-0.1, 0.2, 0.1]),
+            ([-0.5, -0.8, 1.1], [-0.1, -0.2, 0.1]),
+            ([0.1, 0.9, -1.0], [0.1, 0.2, -0.1]),
+            ([0.8, -0.6, -1.0], [0.2, -0.1, -0.1]),
+            ([-0.9, 0.1, -0.8], [-0.2, 0.1, -0.1]),
+        ];
+        let springs: Vec<_> =
+            ends.iter().enumerate().map(|(k, (from, to))| spring(&format!("s{k}"), *from, *to)).collect();
+        rest(json!([]), &springs, gravity);
+    }
+    // A motor that its own spring balances.
+    let hinge = json!([{ "name": "hinge", "type": "revolute", "body_i": "ground", "body_j": "body", "point": [0, 0, 0], "axis": [0, 0, 1] }]);
+    rest(
+        hinge,
+        &[
+            json!({ "type": "torsion", "name": "motor", "joint": "hinge", "stiffness": 3, "free_angle": 0.1, "torque": 0.7 }),
+        ],
+        9.81,
+    );
+}

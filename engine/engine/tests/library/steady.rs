@@ -44,3 +44,44 @@ fn an_unsymmetrical_top_may_grow_and_says_so() {
     same(&[swings[0].growth, swings[1].growth], &[-sigma, sigma], 1e-9);
     same(&[swings[0].frequency, swings[1].frequency].map(|f| TAU * f), &[omega; 2], 1e-9);
 }
+
+/// A rotor in springs that turn with its shaft, whose dampers turn with it as well: m (r̈ + 2 Ω × ṙ − Ω² r) + d ṙ + k r = 0. Beyond the
+/// critical speed √(k/m) nothing pushes it back.
+#[test]
+fn a_rotor_in_turning_springs_is_steady_on_its_axis() {
+    let (m, spring, damper) = (2.0, 150.0, 3.0);
+    for speed in [5.0, 20.0] {
+        let loads: Vec<_> = [0.2f64, 0.2 + TAU / 3.0, 0.2 + 2.0 * TAU / 3.0]
+            .iter()
+            .enumerate()
+            .map(|(k, angle)| {
+                json!({ "type": "spring", "name": format!("s{k}"), "body_i": "shaft", "body_j": "rotor", "stiffness": spring,
+                    "damping": damper, "point_i": [angle.cos(), angle.sin(), 0], "point_j": [0, 0, 0], "free_length": 0.6 })
+            })
+            .collect();
+        let text = json!({ "name": "rotor", "gravity": [0, 0, 0],
+            "bodies": [
+                { "name": "rotor", "mass": m, "inertia": { "principal": [0.1, 0.13, 0.2] }, "angular_velocity": [0, 0, speed] },
+                { "name": "shaft", "mass": 1, "inertia": { "principal": [0.1, 0.1, 0.1] } }],
+            "joints": [
+                { "name": "plane", "type": "planar", "body_i": "ground", "body_j": "rotor", "point": [0, 0, 0], "axis": [0, 0, 1] },
+                { "name": "bearing", "type": "revolute", "body_i": "ground", "body_j": "shaft", "point": [0, 0, 0], "axis": [0, 0, 1] }],
+            "drivers": [{ "type": "angle", "name": "motor", "joint": "bearing", "motion": { "kind": "ramp", "rate": speed } }],
+            "loads": loads });
+        let found = steady(&text.to_string());
+        // With z = x + iy: λ² + (d/m + 2iΩ) λ + k/m − Ω² = 0: three springs are 3/2 of one along each direction, and their
+        // tension, 0.4 of a stiffness, 3/2 of it across.
+        let half = nalgebra::Complex::<f64>::new(0.75 * damper / m, speed);
+        let root = nalgebra::ComplexField::sqrt(half * half - (1.5 * 1.4 * spring / m - speed * speed));
+        let mut expected = [-half + root, -half - root].map(|value| (value.re, value.im.abs()));
+        expected.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let told: Vec<_> = found.modes.iter().filter(|mode| mode.kind != "drifts").collect();
+        assert_eq!(told.len(), 2, "{:?}", found.modes);
+        for (mode, (growth, omega)) in told.iter().zip(expected) {
+            assert!(
+                (mode.growth - growth).abs() < 1e-8 && (TAU * mode.frequency - omega).abs() < 1e-8,
+                "{mode:?}"
+            );
+        }
+    }
+}

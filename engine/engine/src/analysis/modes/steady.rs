@@ -209,7 +209,7 @@ fn lasts(stage: &mut Stage) -> Result<(), AnalysisError> {
             system[id].name
         )));
     }
-    if changed.amax() > CHANGED * now.amax() {
+    if changed.amax() > (CHANGED * now.amax()).max(equilibrium::rounding(stage)) {
         return Err(none(format!(
             "the forces on body \"{}\" change in the frame that moves along: weight and springs to the ground stay the same \
              only about an axis along them",
