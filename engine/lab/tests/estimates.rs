@@ -5,6 +5,7 @@ use triad_engine::catalogue;
 use triad_engine::run::Simulation;
 use triad_lab::estimates::{Judged, QUANTITIES, Quantity, WAYS, in_the_way, judge, judge_all, scenes};
 use triad_lab::stress::random;
+use triad_lab::verify::Verifier;
 use triad_scene::{IntegratorKind, Scene};
 
 /// Estimates of all quantities of runs by `taylor`.
@@ -213,6 +214,59 @@ fn the_energy_of_springs_tells_of_errors_too() {
         let scene = Scene::from_json(&scene.to_string()).unwrap().duration(200.0).tolerance(1e-7);
         let judged = judge(&scene).unwrap();
         assert!(judged.len() >= 15 && judged.iter().all(Judged::is_good), "{judged:?}");
+    }
+}
+
+/// A pendulum that dry friction slows down, for which there is no series.
+fn rubbing_pendulum() -> Scene {
+    let scene = serde_json::json!({
+        "name": "rubbing", "gravity": [0, -9.81, 0],
+        "bodies": [{ "name": "rod", "mass": 1, "inertia": { "principal": [0.1, 0.1, 0.1] }, "center_of_mass": [0.5, 0, 0] }],
+        "joints": [{ "name": "pin", "type": "revolute", "body_i": "ground", "body_j": "rod", "point": [0, 0, 0], "axis": [0, 0, 1] }],
+        "loads": [{ "name": "rub", "type": "torsion", "joint": "pin", "friction": { "coefficient": 0.02, "radius": 0.05, "smoothing": 0.5 } }],
+        "simulation": { "duration": 60 }
+    });
+    Scene::from_json(&scene.to_string()).unwrap()
+}
+
+/// Where the second solution is by the same method it must not be at the same tolerance: then it is the same run, and no error lies
+/// between them.
+#[test]
+fn a_second_solution_by_the_same_method_is_another_run() {
+    let at_end = |integrator, tolerance| {
+        let mut run =
+            Simulation::new(&rubbing_pendulum().integrator(integrator).tolerance(tolerance)).unwrap();
+        run.advance_to(60.0).unwrap();
+        (run.frame().bodies[0].position, run.summary().error.unwrap().position)
+    };
+    let (exact, _) = at_end(IntegratorKind::Radau, 1e-14);
+    for tolerance in [1e-10, 1e-11, 2e-12, 1e-12, 6e-13, 4e-13, 1e-13] {
+        let (found, told) = at_end(IntegratorKind::Dop853, tolerance);
+        let error = found.iter().zip(exact).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+        let least = if error > 1e-13 { 0.3 * error } else { 0.0 };
+        assert!(least <= told && told < 1e-7, "{tolerance:e}: {told:e} for {error:e}");
+    }
+}
+
+/// The same of `--verify`; and a scene without a series can be verified.
+#[test]
+fn a_run_is_verified_by_another_run() {
+    for (integrator, tolerance) in [
+        (IntegratorKind::Dop853, 1e-6),
+        (IntegratorKind::Dopri5, 1e-6),
+        (IntegratorKind::Radau, 1e-6),
+        (IntegratorKind::Radau, 1e-12),
+        (IntegratorKind::Radau, 1e-13),
+        (IntegratorKind::Dop853, 1e-13),
+    ] {
+        let scene = rubbing_pendulum().duration(5.0).integrator(integrator).tolerance(tolerance);
+        let mut run = Simulation::new(&scene).unwrap();
+        let mut verifier =
+            Verifier::new(&scene, &run).unwrap_or_else(|error| panic!("{integrator}: {error}"));
+        run.advance_to(5.0).unwrap();
+        assert!(verifier.compare(&run, u64::MAX));
+        let found = verifier.found();
+        assert!(0.0 < found.position && found.position < 1e-4, "{integrator} at {tolerance:e}: {found:?}");
     }
 }
 

@@ -17,6 +17,12 @@ const SHORTER: f64 = 0.5;
 /// The least tolerance of the second solution: rounding is near. That of a run with steps of one size, whose error has nothing to
 /// do with its tolerance.
 const TIGHTEST: f64 = 1e-12;
+/// Part of the first one's tolerance that the second one's is at most, even below [`TIGHTEST`]: two runs by one method at one tolerance
+/// are the same run, and nothing lies between them.
+const NEAREST: f64 = 0.1;
+/// Tolerance of the first one below which rounding leaves no room for a tighter one. There the second one is the looser, at [`TIGHTEST`],
+/// and what lies between them is rather its own error.
+const NO_TIGHTER: f64 = 5e-13;
 /// Part of the length of the mechanism beyond which the two are no longer compared: as for an error that a series carries.
 const LOST: f64 = 0.05;
 
@@ -67,10 +73,11 @@ impl Companion {
         }
         // Other methods would resolve what the first one leaves out.
         let stiff = kind == IntegratorKind::Radau && !mechanism.system.loads.is_empty();
-        let tighter = if stiff { TIGHTER_STEPS } else { TIGHTER };
         let tolerance = match settings.step {
             // The errors of rattle are far below its tolerance where its steps are limited by something else.
-            None if kind != IntegratorKind::Rattle => (tighter * settings.tolerance).max(TIGHTEST),
+            // Radau beside radau has other stages or steps, whatever the tolerances.
+            None if stiff => (TIGHTER_STEPS * settings.tolerance).max(TIGHTEST),
+            None if kind != IntegratorKind::Rattle => tolerance_beside(settings.tolerance),
             _ => TIGHTEST,
         };
         let mut mechanism = mechanism.clone();
@@ -165,6 +172,11 @@ impl Companion {
         }
         known
     }
+}
+
+/// Tolerance of a second solution beside a first one at this tolerance.
+fn tolerance_beside(first: f64) -> f64 {
+    if first < NO_TIGHTER { TIGHTEST } else { (TIGHTER * first).max(TIGHTEST.min(NEAREST * first)) }
 }
 
 /// How far the positions of two states are apart, m: centres of mass, and directors for a mechanism of this length.
