@@ -1,8 +1,9 @@
 //! Run time against error: scenes × integrators × constraint methods × kinds of bodies × tolerances, measured in turns, with
 //! references of their own.
 //!
-//! Times are of integration alone, on one thread, without assembly and output. Every run is repeated and the repeats
-//! of all runs are interleaved, so that a disturbance of the machine falls on all of them alike.
+//! Times are of integration on one thread, with the estimate of its error unless a scene leaves it out, without assembly and
+//! output. Every run is repeated and the repeats of all runs are interleaved, so that a disturbance of the machine falls on all of
+//! them alike.
 
 mod measure;
 mod plan;

@@ -3,9 +3,10 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use triad_engine::run::Simulation;
+use triad_lab::bench::{BenchCase, BenchPlan, Wish, measure};
 use triad_lab::verify::Verifier;
-use triad_scene::catalogue;
 use triad_scene::{ConstraintMethod, IntegratorKind};
+use triad_scene::{Scene, catalogue};
 
 /// Those that go through singular positions; rattle stops there.
 const INTEGRATORS: [IntegratorKind; 5] = [
@@ -47,7 +48,7 @@ fn window_times(windows: f64) -> Vec<f64> {
 
 /// Runs a scene with each integrator: the singular configurations that it finds must be those at the given times, all of
 /// them, however long the steps, and none invented.
-fn singularities_are(exact: &[f64], name: &str, scene: &triad_engine::Scene, missed: &mut Vec<String>) {
+fn singularities_are(exact: &[f64], name: &str, scene: &Scene, missed: &mut Vec<String>) {
     for integrator in INTEGRATORS {
         let mut scene = scene.clone();
         scene.simulation.integrator = integrator;
@@ -93,7 +94,7 @@ fn singular_configurations_are_found_with_their_times_and_joints() {
     let exact = horizontal_times((0.5, 4.0), 10.0, acceleration);
     assert!(exact.len() >= 9);
     for tolerance in [1e-9, 1e-6] {
-        let mut scene = triad_engine::Scene::from_json(include_str!("data/slider-crank-equal.json")).unwrap();
+        let mut scene = Scene::from_json(include_str!("data/slider-crank-equal.json")).unwrap();
         scene.simulation.tolerance = tolerance;
         singularities_are(&exact, "slider-crank", &scene, &mut missed);
     }
@@ -165,12 +166,12 @@ fn a_second_solution_estimates_the_error_of_a_run() {
 }
 
 /// The slider of a slider-crank is driven farther than its rod reaches.
-fn out_of_reach() -> triad_engine::Scene {
+fn out_of_reach() -> Scene {
     let scene = catalogue::scene("spatial-slider-crank").unwrap();
     let mut scene: serde_json::Value = serde_json::from_str(&scene.to_json()).unwrap();
     scene["drivers"] = serde_json::json!([{"type": "slide", "name": "push", "joint": "D",
         "motion": {"kind": "ramp", "start": 0.2, "rate": 1.0}}]);
-    triad_engine::Scene::from_json(&scene.to_string()).unwrap()
+    Scene::from_json(&scene.to_string()).unwrap()
 }
 
 #[test]
@@ -213,7 +214,7 @@ fn a_start_that_drivers_and_joints_contradict_is_refused_at_once() {
 fn what_stands_in_the_way_is_told_in_words() {
     use triad_engine::Cause;
     // A driver that comes to the end of its reach, and a rod that hardly holds since the start.
-    let stopped = |scene: &triad_engine::Scene, steps: u64| {
+    let stopped = |scene: &Scene, steps: u64| {
         let mut run = Simulation::new(scene).unwrap();
         run.set_step_limit(steps);
         let error = run.advance_to(run.duration()).unwrap_err();
@@ -360,4 +361,39 @@ fn a_driven_structure_that_hardly_holds_is_survived_all_the_same() {
     let summary = run.summary();
     assert!(summary.steps + summary.rejected < 20, "{summary:?}");
     assert!(summary.energy_drift.abs() < 1e-6 * summary.energy.abs(), "{summary:?}");
+}
+
+/// `triad bench` of a scene of one's own: no run is told to be more exact than what it is compared with, and that is what a tight run
+/// by projection makes of the scene, whatever the scene asks for itself.
+#[test]
+fn a_benchmark_knows_what_its_reference_is_worth() {
+    let errors = |scene: &Scene, tolerances: &[f64]| {
+        let mut plan = BenchPlan::quick().with(Wish {
+            integrators: vec![IntegratorKind::Dop853],
+            tolerances: tolerances.to_vec(),
+            ..Wish::default()
+        });
+        plan.cases = vec![BenchCase::given("mine", scene.clone())];
+        (plan.repeats, plan.seconds) = (1, 1.0);
+        let (runs, left_out) = measure(&plan, |_, _| ()).unwrap();
+        let errors: Vec<f64> = runs.iter().map(|run| run.error.unwrap()).collect();
+        (errors, left_out)
+    };
+    let pendulum = catalogue::scene("simple-pendulum").unwrap().duration(3.0);
+    let (found, left_out) = errors(&pendulum, &[1e-6, 1e-13]);
+    assert!(left_out.is_empty(), "{left_out:?}");
+    assert!(1e-8 < found[0] && found[0] < 1e-4 && 0.0 < found[1] && found[1] < 1e-10, "{found:?}");
+    // Soft joints and long steps of the scene are not the reference of those that have neither.
+    let mut soft = pendulum.clone();
+    soft.simulation.constraint_method = ConstraintMethod::Penalty { alpha: 1e3, omega: 10.0, mu: 1.0 };
+    assert_eq!(errors(&soft, &[1e-6]).0, found[..1]);
+    let mut stepped = pendulum;
+    stepped.simulation.step = Some(0.1);
+    let (again, left_out) = errors(&stepped, &[1e-6]);
+    assert_eq!(again, found[..1]);
+    assert!(left_out.len() == 1 && left_out[0].method == "steps of one size", "{left_out:?}");
+    // Where nothing is known of the reference, nothing is said of the others.
+    let chaos = catalogue::scene("spatial-double-pendulum").unwrap().duration(60.0);
+    let (none, left_out) = errors(&chaos, &[1e-6]);
+    assert!(none.is_empty() && left_out[0].why.contains("its own error"), "{none:?} {left_out:?}");
 }

@@ -240,7 +240,8 @@ enum Command {
     /// Measure run time against error: integrators, treatments, kinds of bodies, tolerances.
     ///
     /// Of the built-in scenes, or of your own. The error of a scene of your own is the largest distance from a run of the
-    /// same scene at the tightest tolerance. A method that cannot run it is left out.
+    /// same scene at the tightest tolerance, and not less than what that run may be off itself. A method that cannot run it is
+    /// left out. Times hold the estimate of the error that a run carries along, unless the scene has "error_estimate": false.
     #[command(
         after_help = "Examples:\n  triad bench --quick            (then open reports/bench.html, or /bench in the \
         workbench)\n  triad bench my-scene.json --tolerances 1e-4,1e-8\n  triad bench --scenes chain --integrators taylor,dop853 --coordinates full,reduced,shared\n  \

@@ -56,7 +56,7 @@ fn a_rotor_in_turning_springs_is_steady_on_its_axis() {
             .enumerate()
             .map(|(k, angle)| {
                 json!({ "type": "spring", "name": format!("s{k}"), "body_i": "shaft", "body_j": "rotor", "stiffness": spring,
-                    "damping": damper, "point_i": [angle.cos(), angle.sin(), 0], "point_j": [0, 0, 0], "free_length": 0.6 })
+                    "damping": damper, "point_i": [libm::cos(*angle), libm::sin(*angle), 0], "point_j": [0, 0, 0], "free_length": 0.6 })
             })
             .collect();
         let text = json!({ "name": "rotor", "gravity": [0, 0, 0],

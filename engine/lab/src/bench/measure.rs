@@ -8,7 +8,7 @@ use triad_scene::catalogue;
 use triad_scene::{IntegratorKind, Scene};
 
 use super::plan::{BenchCase, BenchPlan, Method, Truth};
-use super::reference::{self, distance};
+use super::reference::{self, Positions, Reference, distance};
 
 /// One run with its error, its times and its work.
 #[derive(Clone, Debug)]
@@ -19,7 +19,7 @@ pub struct Measured {
     pub method: Method,
     /// The tolerance.
     pub tolerance: f64,
-    /// Largest distance from the reference, m; `None` if the run stopped early.
+    /// Largest distance from the reference, m, and not less than what that may be off itself; `None` if the run stopped early.
     pub error: Option<f64>,
     /// Times of all repeats in rising order, s.
     pub times: Vec<f64>,
@@ -94,6 +94,30 @@ pub fn measure(
     Ok((measured.collect(), left_out))
 }
 
+/// What the runs of a case are compared with, and how far it may be off itself, m; `None` if nobody knows. The scene gives up what
+/// stands against a comparison of tolerances.
+fn truth(
+    case: &BenchCase,
+    scene: &mut Scene,
+    left_out: &mut Vec<LeftOut>,
+) -> Result<Option<(Positions, f64)>, EngineError> {
+    let mut leave = |method: &str, why: &str| {
+        left_out.push(LeftOut { scene: case.scene.clone(), method: method.to_owned(), why: why.to_owned() });
+    };
+    if scene.simulation.step.take().is_some() {
+        leave("steps of one size", "tolerances are compared, and such steps have none");
+    }
+    let Reference { positions, error } = reference::reference(case, scene)?;
+    if error.is_none() && case.given.is_some() {
+        leave(
+            "every method",
+            "what runs are compared with does not know its own error until the end: ask for a shorter duration",
+        );
+        return Ok(None);
+    }
+    Ok(Some((positions, error.unwrap_or(0.0))))
+}
+
 fn prepare(
     plan: &BenchPlan,
     case: &BenchCase,
@@ -105,16 +129,20 @@ fn prepare(
         None => catalogue::scene(&case.scene)?,
     };
     scene.simulation.duration = case.duration;
-    let truth = reference::reference(case, &scene)?;
+    let Some((truth, own)) = truth(case, &mut scene, left_out)? else { return Ok(()) };
     let compared = if case.truth == Truth::Converged { scene.bodies.len() } else { 1 };
     for (index, &method) in plan.methods.iter().enumerate() {
         progress(index as f64 / plan.methods.len() as f64);
         let leave = |why: String| LeftOut { scene: case.scene.clone(), method: method.to_string(), why };
-        let mut worth = plan.tolerances.iter().filter(|&&t| BenchPlan::worth(case, method, t)).peekable();
-        if worth.peek().is_none() {
+        let (worth, not): (Vec<f64>, Vec<f64>) =
+            plan.tolerances.iter().partition(|&&tolerance| BenchPlan::worth(case, method, tolerance));
+        if worth.is_empty() {
             left_out.push(leave("no tolerance of these is worth its time".to_owned()));
+        } else if !not.is_empty() && case.given.is_some() {
+            let not: Vec<String> = not.iter().map(|tolerance| format!("{tolerance:e}")).collect();
+            left_out.push(leave(format!("tolerances not worth its time: {}", not.join(", "))));
         }
-        for &tolerance in worth {
+        for tolerance in worth {
             scene.coordinates = method.coordinates;
             scene.simulation.integrator = method.integrator;
             scene.simulation.constraint_method = method.constraint_method;
@@ -139,7 +167,7 @@ fn prepare(
                 left_out.push(leave(error.to_string()));
                 break;
             }
-            let error = run.ok().map(|run| distance(&run, &truth));
+            let error = run.ok().map(|run| distance(&run, &truth).max(own));
             simulation.set_step_limit(reference::MAX_STEPS);
             let work = simulation.summary();
             let times = Vec::with_capacity(plan.repeats);

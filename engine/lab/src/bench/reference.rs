@@ -2,8 +2,7 @@
 
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
-use triad_scene::IntegratorKind;
-use triad_scene::Scene;
+use triad_scene::{ConstraintMethod, IntegratorKind, Scene};
 
 use super::plan::{BenchCase, Truth};
 
@@ -37,37 +36,60 @@ fn intervals(duration: f64) -> u32 {
 ///
 /// [`EngineError`]: the scene cannot start or go on.
 pub fn positions(scene: &Scene, bodies: usize) -> Result<Positions, EngineError> {
+    followed(scene, bodies, |_| ())
+}
+
+/// The same; `at` sees the run at each of the moments.
+fn followed(scene: &Scene, bodies: usize, mut at: impl FnMut(&Simulation)) -> Result<Positions, EngineError> {
     let mut simulation = Simulation::new(scene)?;
     simulation.set_step_limit(MAX_STEPS);
     let duration = scene.simulation.duration;
     (0..=intervals(duration))
         .map(|k| {
             simulation.advance_to((f64::from(k) * interval(duration)).min(duration))?;
+            at(&simulation);
             Ok(simulation.frame().bodies.iter().take(bodies).map(|b| b.position).collect())
         })
         .collect()
 }
 
-/// The reference of a case: positions of the bodies that are compared.
+/// What runs are compared with.
+pub struct Reference {
+    /// Positions of the bodies that are compared.
+    pub positions: Positions,
+    /// How far they are off themselves, m; `None` where nothing is known of that before the end.
+    pub error: Option<f64>,
+}
+
+/// The reference of a case.
 ///
 /// # Errors
 ///
 /// [`EngineError`]: the scene cannot start or go on.
-pub fn reference(case: &BenchCase, scene: &Scene) -> Result<Positions, EngineError> {
+pub fn reference(case: &BenchCase, scene: &Scene) -> Result<Reference, EngineError> {
     match case.truth {
         Truth::Converged => {
             let mut tight = scene.clone();
-            let stiff = Simulation::new(scene)?.summary().integrator == IntegratorKind::Radau;
+            let settings = &mut tight.simulation;
+            // Whatever the scene asks for itself: rigid joints, and steps that its tolerance makes.
+            settings.constraint_method = ConstraintMethod::Projection;
+            settings.step = None;
+            settings.error_estimate = true;
+            settings.integrator = IntegratorKind::Auto;
+            let stiff = Simulation::new(&tight)?.summary().integrator == IntegratorKind::Radau;
             (tight.simulation.integrator, tight.simulation.tolerance) =
                 if stiff { (IntegratorKind::Radau, 1e-12) } else { (IntegratorKind::Dop853, 1e-13) };
-            positions(&tight, scene.bodies.len())
+            let mut error = Some(0.0f64);
+            let positions = followed(&tight, scene.bodies.len(), |run| {
+                error = error.zip(run.error_estimate()).map(|(most, here)| most.max(here.position));
+            })?;
+            Ok(Reference { positions, error })
         }
         Truth::Angle { kappa, start, rate, arm } => {
             let angles = pendulum(kappa, start, rate, intervals(case.duration));
-            Ok(angles
-                .into_iter()
-                .map(|phi| vec![[arm * libm::sin(phi), arm * libm::cos(phi), 0.0]])
-                .collect())
+            let positions =
+                angles.into_iter().map(|phi| vec![[arm * libm::sin(phi), arm * libm::cos(phi), 0.0]]);
+            Ok(Reference { positions: positions.collect(), error: Some(0.0) })
         }
     }
 }

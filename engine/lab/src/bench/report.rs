@@ -39,7 +39,8 @@ fn time_to(runs: &[&Measured], error: f64) -> Option<f64> {
 /// Time to reach each of three errors, for the terminal.
 pub fn table(runs: &[Measured]) -> String {
     let width = runs.iter().map(|r| r.method.to_string().len()).max().unwrap_or(0).max(10) + 2;
-    let mut out = format!("{:<26}{:<width$}{:>12}{:>12}{:>12}\n", "scene", "method", "1e-3", "1e-6", "1e-9");
+    let mut out =
+        format!("{:<26}{:<width$}{:>12}{:>12}{:>12}\n", "scene", "method", "1e-3 m", "1e-6 m", "1e-9 m");
     let mut worst: Option<(f64, String)> = None;
     for (scene, runs) in by_scene(runs) {
         let times: Vec<(Method, [Option<f64>; 3])> = plot::methods(&runs)
@@ -121,8 +122,9 @@ pub fn html(runs: &[Measured]) -> String {
          .plots svg{width:100%;height:auto}.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(26rem,1fr));gap:1rem}\
          table{border-collapse:collapse}td,th{padding:.2rem .7rem;text-align:right;border-bottom:1px solid #ddd}\
          td:first-child,th:first-child,td:nth-child(2),th:nth-child(2){text-align:left}</style>\n\
-         <h1>Run time against error</h1>\n<p>Integration alone, one thread, medians of interleaved repeats. The error \
-         is the largest distance from the reference over samples every 0.01 s.</p>\n<div class=\"plots\">\n",
+         <h1>Run time against error</h1>\n<p>Integration with the estimate of its error, which a run carries along unless its scene leaves it \
+         out; one thread, medians of interleaved repeats. The error is the largest distance from the reference over samples every \
+         0.01 s, or every hundredth of a run that is shorter than 1 s, and not less than what the reference may be off itself.</p>\n<div class=\"plots\">\n",
     );
     for (scene, runs) in by_scene(runs) {
         out.push_str(&plot::svg(scene, &runs));
