@@ -118,10 +118,10 @@ impl Simulation {
         self.current.better(self.system(), |error| self.write_error(error))
     }
 
-    /// The error of the current state, where it is known.
-    pub(super) fn error_of_state(&self) -> Option<Vec<f64>> {
-        let mut error = vec![0.0; self.current.y().len()];
-        self.write_error(&mut error).then_some(error)
+    /// Keeps the error of the current state, and says whether it is known.
+    pub(super) fn keep_error(&self, error: &mut Vec<f64>) -> bool {
+        error.resize(self.current.y().len(), 0.0);
+        self.write_error(error)
     }
 
     fn write_error(&self, error: &mut [f64]) -> bool {
@@ -150,7 +150,7 @@ impl Simulation {
 
     /// The current state compared with that without an error.
     fn compare(&self, better: &CachedState) -> ErrorEstimate {
-        let (here, there) = (self.current.state(), better.state());
+        let (here, there) = (self.current.state(self.system()), better.state(self.system()));
         let energy = self.energy_error(here, there);
         // Largest squares of lengths: of errors, and of the numbers, none of which is better than its own rounding.
         let (mut turn, mut errors, mut numbers) = (0.0f64, [0.0f64; 3], [0.0f64; 3]);

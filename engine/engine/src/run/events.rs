@@ -50,7 +50,7 @@ impl Simulation {
         let Self { mechanism, current, last_numbers, .. } = self;
         last_numbers.clear();
         last_numbers.extend(mechanism.system.event_functions.iter().map(|function| {
-            let mut number = function.evaluate(current.state());
+            let mut number = function.evaluate(current.state(&mechanism.system));
             if is_at_value(number, function) {
                 number[0] = 0.0;
             }

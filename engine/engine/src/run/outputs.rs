@@ -156,7 +156,8 @@ fn groups(run: &Simulation, output: &Output) -> Vec<Group> {
 
 /// Appends the numbers of a group at the current state.
 fn write(run: &Simulation, group: Group, row: &mut Vec<f64>) {
-    let (system, model, state) = (run.system(), run.model(), run.current.state());
+    let (system, model) = (run.system(), run.model());
+    let state = run.current.state(system);
     match group {
         Group::Body(body) => {
             let frame = triad_dynamics::state::BodyFrame::from(&state.bodies()[body]);
@@ -202,7 +203,8 @@ fn write(run: &Simulation, group: Group, row: &mut Vec<f64>) {
 }
 
 fn write_load(run: &Simulation, load: usize, row: &mut Vec<f64>) {
-    let (system, state) = (run.system(), run.current.state());
+    let system = run.system();
+    let state = run.current.state(system);
     let dry = system.frictions.iter().find(|dry| dry.load == load);
     let load = &system.loads[load];
     if let Some(vector) = load.given(state) {

@@ -53,7 +53,8 @@ impl Simulation {
     /// The same, read off the series of the last step where the integrator has them: without an evaluation, and as exact
     /// as the tolerance makes the accelerations. For pictures of many moments.
     pub fn multipliers_between_steps(&self) -> Vec<JointMultipliers> {
-        let (system, state) = (self.system(), self.current.state());
+        let system = self.system();
+        let state = self.current.state(system);
         let mut jacobian = TwistJacobian::new(system);
         jacobian.fill(system, state);
         match self.integrator.multipliers(system, state, &jacobian) {
@@ -73,6 +74,6 @@ impl Simulation {
 
     /// How far the current state is from its constraints Φ = 0, each row relative to its size.
     pub fn violation(&self) -> violation::ConstraintViolation {
-        violation::measure(self.system(), self.current.state())
+        violation::measure(self.system(), self.current.state(self.system()))
     }
 }

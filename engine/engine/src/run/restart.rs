@@ -49,7 +49,9 @@ impl Simulation {
         let places = system.model.bodies.iter().zip(&other.model().bodies).zip(&frames);
         let moved: Vec<ModelBody> = places.map(|((body, old), frame)| placed_as(body, old, frame)).collect();
         system.start_of(&moved, q, q_dot);
-        self.mechanism.state.copy_revolutions(other.current.state());
+        self.mechanism
+            .state
+            .set_revolutions(other.current.angles(other.system()).iter().map(|angle| angle.value));
         let notes = self.mechanism.assemble_at(time, &mut y)?;
         self.mechanism.state.commit_revolutions();
         self.begin(time, &y);
@@ -72,8 +74,7 @@ impl Simulation {
     /// ```
     pub fn resume(&mut self, kept: &Snapshot) -> bool {
         let Snapshot { time, state, angles } = kept;
-        let of_this =
-            state.len() == self.current.y().len() && angles.len() == self.current.state().angles().len();
+        let of_this = state.len() == self.current.y().len() && angles.len() == self.system().angles.len();
         let plain = state.iter().chain(angles).chain([time]).all(|x| x.is_finite());
         if !of_this || !plain || !(0.0..=self.duration()).contains(time) {
             return false;
@@ -107,7 +108,7 @@ impl Simulation {
         self.companion = Companion::start(self.kind, &self.mechanism, time, y);
         self.integrator = Integrator::start(self.kind, &mut self.mechanism, time, y);
         self.set_current(time, y);
-        self.start_energy = self.current.state().energy(self.system());
+        self.start_energy = self.current.state(self.system()).energy(self.system());
         self.restart_events();
     }
 }

@@ -9,7 +9,7 @@ use std::borrow::Cow;
 const PER_LIST: usize = 16;
 
 /// A state of a run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     /// Time, s.
     pub time: f64,
@@ -34,8 +34,18 @@ pub fn list_size<T>(list: &Vec<T>) -> usize {
 impl Simulation {
     /// The current state, to be restored with [`Simulation::at_snapshot`].
     pub fn snapshot(&self) -> Snapshot {
-        let angles = self.current.state().angles().iter().map(|angle| angle.value).collect();
-        Snapshot { time: self.time(), state: self.current.y().to_vec(), angles }
+        let mut snapshot = Snapshot::default();
+        self.keep(&mut snapshot);
+        snapshot
+    }
+
+    /// Puts the current state in the place of another snapshot.
+    pub(super) fn keep(&self, snapshot: &mut Snapshot) {
+        snapshot.time = self.time();
+        self.current.y().clone_into(&mut snapshot.state);
+        let angles = self.current.angles(self.system());
+        snapshot.angles.clear();
+        snapshot.angles.extend(angles.iter().map(|angle| angle.value));
     }
 
     /// A copy that cannot go on and takes little room.
@@ -57,7 +67,7 @@ impl Simulation {
     /// ```
     pub fn at_snapshot(&self, snapshot: &Snapshot) -> Option<StateView<'_>> {
         let Snapshot { time, state, angles } = snapshot;
-        if state.len() != self.current.y().len() || angles.len() != self.current.state().angles().len() {
+        if state.len() != self.current.y().len() || angles.len() != self.system().angles.len() {
             return None;
         }
         let state = self.current.at(self.system(), *time, state, angles);

@@ -16,7 +16,7 @@ use triad_dynamics::equations;
 use triad_dynamics::equations::jacobian::Jacobian;
 use triad_dynamics::model::{BodyRef, ModelMarker};
 use triad_dynamics::newton::{project_positions, project_velocities, rules};
-use triad_dynamics::state::{BodyFrame, State};
+use triad_dynamics::state::{AngleState, BodyFrame, State};
 use triad_dynamics::system::System;
 
 /// A state of a run, with the results that have been computed from it so far.
@@ -24,8 +24,43 @@ use triad_dynamics::system::System;
 pub(super) struct CachedState {
     time: f64,
     y: Vec<f64>,
-    state: State,
+    state: LateState,
     results: Results,
+}
+
+/// A state that is taken over when it is first looked at: rows of a table are written by other threads, with states of their own.
+#[derive(Debug)]
+struct LateState {
+    known: OnceLock<State>,
+    /// That of another time, from whose angles whole turns are counted on; none where the state is known.
+    other: Mutex<Option<State>>,
+}
+
+impl LateState {
+    fn known(state: State) -> Self {
+        Self { known: OnceLock::from(state), other: Mutex::default() }
+    }
+
+    /// At the next time, whole turns being counted from these angles on.
+    fn go_on(&mut self, turns: impl Iterator<Item = f64>) {
+        let other = self.other.get_mut().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = self.known.take() {
+            *other = Some(known);
+        }
+        if let Some(state) = other {
+            state.set_revolutions(turns);
+        }
+    }
+}
+
+impl Clone for LateState {
+    fn clone(&self) -> Self {
+        if let Some(known) = self.known.get() {
+            return Self::known(known.clone());
+        }
+        let other = self.other.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        Self { known: OnceLock::new(), other: Mutex::new(other) }
+    }
 }
 
 /// Results that are computed at most once for each state.
@@ -69,7 +104,7 @@ impl Clone for CachedState {
 impl CachedState {
     /// The state y = (q, q̇) at time t, s, which is in place in `state`.
     pub fn new(time: f64, y: &[f64], state: &State) -> Self {
-        Self { time, y: y.to_vec(), state: state.clone(), results: Results::default() }
+        Self { time, y: y.to_vec(), state: LateState::known(state.clone()), results: Results::default() }
     }
 
     /// Changes to the state y = (q, q̇) at another time, s, which `write` fills in; whole turns of angles are counted as the
@@ -83,10 +118,7 @@ impl CachedState {
         self.results = std::mem::take(&mut self.results).spare();
         self.time = time;
         write(mechanism, &mut self.y);
-        let turns = mechanism.state.angles().iter().map(|angle| angle.reference);
-        self.state.set_revolutions(turns);
-        let (q, q_dot) = self.y.split_at(mechanism.system.coordinates);
-        self.state.set(&mechanism.system, time, q, q_dot);
+        self.state.go_on(mechanism.state.angles().iter().map(|angle| angle.reference));
     }
 
     /// Changes to a snapshot of the same run, with its error where that is known; no work is added to what the run has counted.
@@ -94,9 +126,7 @@ impl CachedState {
         self.results = std::mem::take(&mut self.results).spare();
         self.time = snapshot.time;
         self.y.copy_from_slice(&snapshot.state);
-        self.state.set_revolutions(snapshot.angles.iter().copied());
-        let (q, q_dot) = self.y.split_at(system.coordinates);
-        self.state.set(system, self.time, q, q_dot);
+        self.state.go_on(snapshot.angles.iter().copied());
         self.work(|| 0.0);
         self.better(system, |out| {
             if let Some(error) = error {
@@ -108,11 +138,11 @@ impl CachedState {
 
     /// The state y = (q, q̇) at another time, s, whose angles, rad, are known to less than half a turn.
     pub fn at(&self, system: &System, time: f64, y: &[f64], angles: &[f64]) -> Self {
-        let mut state = self.state.clone();
+        let mut state = self.state(system).clone();
         state.set_revolutions(angles.iter().copied());
         let (q, q_dot) = y.split_at(system.coordinates);
         state.set(system, time, q, q_dot);
-        Self { time, y: y.to_vec(), state, results: Results::default() }
+        Self { time, y: y.to_vec(), state: LateState::known(state), results: Results::default() }
     }
 
     /// This state less its error, which `error` writes on the first request; `None` if it does not know it.
@@ -128,9 +158,7 @@ impl CachedState {
             for (x, y) in better.y.iter_mut().zip(&self.y) {
                 *x = y - *x;
             }
-            better.state.copy_revolutions(&self.state);
-            let (q, q_dot) = better.y.split_at(system.coordinates);
-            better.state.set(system, self.time, q, q_dot);
+            better.state.go_on(self.angles(system).iter().map(|angle| angle.value));
             Some(better)
         };
         self.results.better.get_or_init(find).as_deref()
@@ -139,32 +167,28 @@ impl CachedState {
     /// Multipliers of a state nearby, which is this one without its error.
     pub fn multipliers_of<'a>(&'a self, better: &'a Self, run: &'a Simulation) -> Multipliers<'a> {
         let solver = better.solver(run, Some(self.solver(run, None)));
-        solver.last_accelerations(run.system(), &better.state).multipliers
+        solver.last_accelerations(run.system(), better.state(run.system())).multipliers
     }
 
     /// Force and moment of each joint and driver: see [`Multipliers::joint_wrench`].
     pub fn wrenches(&self, run: &Simulation) -> &[[Vector3<f64>; 2]] {
         let find = || {
-            let at = self.solver(run, None).last_accelerations(run.system(), &self.state).multipliers;
+            let system = run.system();
+            let at = self.solver(run, None).last_accelerations(system, self.state(system)).multipliers;
             let exerted =
                 |constraint| at.joint_wrench(constraint).map(|wrench| [wrench.force, wrench.moment]);
-            run.system()
-                .constraints
-                .iter()
-                .map(|constraint| exerted(constraint).unwrap_or_default())
-                .collect()
+            system.constraints.iter().map(|constraint| exerted(constraint).unwrap_or_default()).collect()
         };
         self.results.wrenches.get_or_init(find)
     }
 
     /// A solver with the accelerations and multipliers of this state, and what is known of one nearby.
     fn solver(&self, run: &Simulation, near: Option<&Elimination>) -> &Elimination {
-        let Self { state, results, .. } = self;
-        results.solved.get_or_init(|| {
-            let spare = results.spare.lock().unwrap_or_else(PoisonError::into_inner).take();
+        self.results.solved.get_or_init(|| {
+            let spare = self.results.spare.lock().unwrap_or_else(PoisonError::into_inner).take();
             let mut solver =
                 spare.unwrap_or_else(|| Box::new(run.examiner.solver(&run.mechanism, &run.start)));
-            solver.examine(run.system(), state, run.mechanism.baumgarte(), near);
+            solver.examine(run.system(), self.state(run.system()), run.mechanism.baumgarte(), near);
             solver
         })
     }
@@ -180,8 +204,19 @@ impl CachedState {
     }
 
     /// The state.
-    pub fn state(&self) -> &State {
-        &self.state
+    pub fn state(&self, system: &System) -> &State {
+        self.state.known.get_or_init(|| {
+            let other = self.state.other.lock().unwrap_or_else(PoisonError::into_inner).take();
+            let mut state = other.unwrap_or_else(|| State::new(system));
+            let (q, q_dot) = self.y.split_at(system.coordinates);
+            state.set(system, self.time, q, q_dot);
+            state
+        })
+    }
+
+    /// The angles of joints; where there are none the state is not asked for them.
+    pub fn angles(&self, system: &System) -> &[AngleState] {
+        if system.angles.is_empty() { &[] } else { self.state(system).angles() }
     }
 
     /// Work since the start of the last step, J, computed by `find` on the first request.
@@ -224,13 +259,13 @@ impl<'a> StateView<'a> {
 
     /// What is known at this state without solving.
     pub(crate) fn known(&self) -> &State {
-        &self.cached.state
+        self.cached.state(self.system())
     }
 
     /// Φ of all rows.
     #[doc(hidden)]
     pub fn constraints(&self) -> Vec<f64> {
-        equations::constraints(self.run.system(), &self.cached.state)
+        equations::constraints(self.system(), self.known())
     }
 
     /// Rank of the joint rows near the start — THEORY section 8.
@@ -255,14 +290,14 @@ impl<'a> StateView<'a> {
 
     /// All bodies in the world: position, directors, velocity, angular velocity; and all markers.
     pub fn frame(&self) -> Frame {
-        let bodies = self.cached.state.bodies().iter().map(BodyFrame::from).collect();
+        let bodies = self.known().bodies().iter().map(BodyFrame::from).collect();
         Frame { time: self.cached.time, bodies, markers: self.markers() }
     }
 
     /// Positions and velocities of the scene's markers, in its order.
     pub fn markers(&self) -> Vec<MarkerFrame> {
         let markers = &self.system().model.markers;
-        markers.iter().map(|marker| MarkerFrame::new(marker, &self.cached.state)).collect()
+        markers.iter().map(|marker| MarkerFrame::new(marker, self.known())).collect()
     }
 
     /// Accelerations of the scene's markers in the world, m/s², in its order.
@@ -284,7 +319,7 @@ impl<'a> StateView<'a> {
 
     /// The constraint Jacobian Φ_q, rigid-body rows first — eq. (4.1).
     pub fn jacobian(&self) -> Jacobian {
-        Jacobian::new(self.system(), &self.cached.state)
+        Jacobian::new(self.system(), self.known())
     }
 
     /// Accelerations q̈ — eq. (7.2): m/s² for positions, 1/s² for directors.
@@ -314,7 +349,10 @@ impl<'a> StateView<'a> {
     pub fn reactions(&self, convention: Convention) -> Result<ReactionReport, EngineError> {
         let Some(held) = self.held() else { return Ok(report(&self.solved().multipliers, convention)?) };
         let solver = held.solver(self.run, None);
-        Ok(report(&solver.last_accelerations(self.system(), &held.state).multipliers, convention)?)
+        Ok(report(
+            &solver.last_accelerations(self.system(), held.state(self.system())).multipliers,
+            convention,
+        )?)
     }
 
     /// The state moved onto the constraints, where rows depend on others: as far off as a tolerance allows, some do not, and what they
@@ -326,7 +364,7 @@ impl<'a> StateView<'a> {
             return None;
         }
         let (mut mechanism, mut y) = (run.mechanism.clone(), self.cached.y.clone());
-        mechanism.state = self.cached.state.clone();
+        mechanism.state = self.known().clone();
         let (length, mut on) = (mechanism.system.length, mechanism.projectable(&mut y));
         let closed = project_positions(&mut on, &rules::ASSEMBLY_POSITIONS, length).has_converged();
         mechanism.set_state(self.cached.time, &y);
@@ -336,16 +374,16 @@ impl<'a> StateView<'a> {
 
     /// The augmented matrix of the equations of motion — eq. (6.6).
     pub fn augmented(&self) -> Symmetric {
-        matrices::augmented(self.system(), &self.cached.state)
+        matrices::augmented(self.system(), self.known())
     }
 
     /// S, which the solver factors — eq. (7.6).
     pub fn schur(&self) -> Symmetric {
-        matrices::schur(self.system(), &self.cached.state, &mut self.run.mechanism.elimination.clone())
+        matrices::schur(self.system(), self.known(), &mut self.run.mechanism.elimination.clone())
     }
 
     /// Accelerations and multipliers of the state.
     pub(super) fn solved(&self) -> Accelerations<'_> {
-        self.cached.solver(self.run, None).last_accelerations(self.system(), &self.cached.state)
+        self.cached.solver(self.run, None).last_accelerations(self.system(), self.known())
     }
 }

@@ -93,7 +93,8 @@ impl Simulation {
     /// ```
     pub fn summary(&self) -> Summary {
         let work = self.work + self.work_up_to_current();
-        let (system, current) = (&self.mechanism.system, self.current.state());
+        let system = &self.mechanism.system;
+        let current = self.current.state(system);
         let energy = current.energy(system);
         let position_violation = current.position_violation(system);
         let velocity_violation = current.velocity_violation(system);
@@ -158,7 +159,8 @@ impl Simulation {
         if self.kind == IntegratorKind::Taylor {
             return doubts;
         }
-        let (system, current) = (&self.mechanism.system, self.current.state());
+        let system = &self.mechanism.system;
+        let current = self.current.state(system);
         let kinetic = self.max_kinetic_energy.max(current.kinetic_energy(system)).max(resting_energy(system));
         let signs = violation::Signs {
             passed: singularities.first().map(|passed| passed.time),

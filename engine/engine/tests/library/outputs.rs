@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used)] // a test that cannot go on says so
 
 use triad_engine::prelude::*;
-use triad_engine::run::{Outputs, RowWriter};
+use triad_engine::run::{Moment, Outputs, RowWriter};
 use triad_engine::scene::{Output, OutputKind};
 
 /// The numbers of the current state by the names of their columns.
@@ -123,12 +123,14 @@ fn a_row_is_the_same_whenever_it_is_written() {
             let mut run = Simulation::new(scene).unwrap();
             let outputs = Outputs::new(&run);
             let mut writer = RowWriter::new(&run, &outputs);
-            let mut kept = Vec::new();
+            let (mut kept, mut used) = (Vec::new(), Moment::default());
             for step in 0..30 {
                 run.advance_to(0.07 * f64::from(step)).unwrap();
+                // Before anything has looked at the state, and where another moment was kept.
+                outputs.keep(&run, &mut used);
                 let mut row = Vec::new();
                 outputs.write(&run, &mut row);
-                kept.push((outputs.moment(&run), row));
+                kept.push((used.clone(), row));
             }
             for (moment, now) in kept.iter().rev() {
                 let mut later = Vec::new();

@@ -1,7 +1,7 @@
 //! Tables of a run: as text, or as an Arrow file for programs that read columns.
 //!
-//! The numbers of a row are computed and written out by as many threads as there are processors, while the run goes on one block of rows
-//! at a time: which thread writes a row changes no bit of it.
+//! The numbers of rows are computed and written out by as many threads as there are processors, the one that runs among them, and while
+//! it runs: which thread writes a row changes no bit of it.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -13,9 +13,9 @@ use arrow_array::{ArrayRef, Float64Array, RecordBatch};
 use arrow_ipc::writer::FileWriter;
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use axum::http::StatusCode;
-use rayon::prelude::*;
 use triad_engine::run::{Column, Moment, Outputs, RowWriter, Simulation, append_row};
 
+use super::in_order::{InOrder, Take, Work};
 use crate::problem::Problem;
 use crate::table::{TextTable, all_columns, head};
 
@@ -23,39 +23,57 @@ use crate::table::{TextTable, all_columns, head};
 const ARROW: [&str; 2] = ["arrow", "feather"];
 /// Endings of tables that are not written.
 const OTHERS: [&str; 3] = ["parquet", "xlsx", "mat"];
-/// Rows of an Arrow file that are written together.
+/// Most rows of an Arrow file that are written together, and most numbers of them.
 const BATCH: usize = 4096;
+const BATCH_NUMBERS: usize = 1 << 18;
 
-/// Moments that wait until their rows are written together, and most threads that do so.
-const BLOCK: usize = 64;
+/// Most threads that write rows, the most rows that one of them writes at once, and numbers of these rows and of their states.
 const MOST_WRITERS: usize = 8;
+const MOST_ROWS: usize = 64;
+const NUMBERS: usize = 1 << 15;
 
 /// A table of a run being written.
 pub(super) struct Table {
     outputs: Outputs,
-    waiting: Vec<Moment>,
-    writers: Vec<Writer>,
-    sink: Sink,
+    writing: InOrder<Writer, Sink>,
+    filled: Rows,
+    /// Rows that are written together.
+    together: usize,
 }
 
-/// Writes a part of a block.
-struct Writer {
-    rows: RowWriter,
-    /// The numbers of its rows, one row after the other, and their text where that is wanted.
+/// Rows that are written together.
+#[derive(Default)]
+struct Rows {
+    /// Their moments, and as many as were there before.
+    moments: Vec<Moment>,
+    count: usize,
+    /// The numbers of the rows, one row after the other: of one row at a time where they become text.
     numbers: Vec<f64>,
     text: Vec<u8>,
 }
 
-impl Writer {
-    fn write(&mut self, moments: &[Moment], as_text: bool) {
-        for moment in moments {
-            if as_text {
-                self.numbers.clear();
+/// Writes rows.
+#[derive(Clone)]
+struct Writer {
+    rows: RowWriter,
+    as_text: bool,
+}
+
+impl Work for Writer {
+    type Piece = Rows;
+
+    fn work(&mut self, piece: &mut Rows) {
+        let Rows { moments, count, numbers, text } = piece;
+        numbers.clear();
+        text.clear();
+        for moment in &moments[..*count] {
+            if self.as_text {
+                numbers.clear();
             }
-            self.numbers.push(moment.time());
-            self.rows.write(moment, &mut self.numbers);
-            if as_text {
-                append_row(&mut self.text, &self.numbers);
+            numbers.push(moment.time());
+            self.rows.write(moment, numbers);
+            if self.as_text {
+                append_row(text, numbers);
             }
         }
     }
@@ -63,13 +81,29 @@ impl Writer {
 
 /// Where rows go.
 enum Sink {
-    Text(TextTable<Box<dyn Write>>),
-    Arrow { writer: Box<FileWriter<BufWriter<File>>>, columns: Vec<Vec<f64>> },
+    Text(TextTable<Box<dyn Write + Send>>),
+    Arrow(ArrowTable),
+}
+
+/// An Arrow file.
+struct ArrowTable {
+    writer: Box<FileWriter<BufWriter<File>>>,
+    /// How many columns there are, and how many rows are written together.
+    width: usize,
+    batch: usize,
+    /// Rows that wait for that, one column after the other, and how many they are.
+    columns: Vec<f64>,
+    waiting: usize,
 }
 
 impl Table {
     /// Opens a table (`-` is standard output) and writes its head; the ending of the file chooses its kind.
     pub(super) fn create(path: &Path, run: &Simulation) -> Result<Self, Problem> {
+        Self::with_threads(std::thread::available_parallelism().map_or(1, usize::from), path, run)
+    }
+
+    /// The same, written by so many threads at most, this one included.
+    fn with_threads(threads: usize, path: &Path, run: &Simulation) -> Result<Self, Problem> {
         let outputs = Outputs::new(run);
         let unwritable =
             |error: &dyn std::fmt::Display| crate::cli::output::unwritable(path, &error.to_string());
@@ -88,104 +122,121 @@ impl Table {
         } else {
             let file = File::create(path).map_err(|error| unwritable(&error))?;
             if ARROW.contains(&ending.as_str()) {
-                Sink::arrow(file, run, &outputs).map_err(|error| unwritable(&error))?
+                let table = ArrowTable::new(file, run, &outputs);
+                Sink::Arrow(table.map_err(|error| unwritable(&error))?)
             } else {
                 Sink::text(Box::new(file), run, &outputs).map_err(|error| unwritable(&error))?
             }
         };
-        let count = rayon::current_num_threads().clamp(1, MOST_WRITERS);
-        let rows = RowWriter::new(run, &outputs);
-        let writer = || Writer { rows: rows.clone(), numbers: Vec::new(), text: Vec::new() };
-        let writers = std::iter::repeat_with(writer).take(count).collect();
-        Ok(Self { outputs, waiting: Vec::with_capacity(BLOCK), writers, sink })
+        let writer = Writer { rows: RowWriter::new(run, &outputs), as_text: matches!(sink, Sink::Text(_)) };
+        let numbers = outputs.columns().len() + 2 * (run.q().len() + run.q_dot().len());
+        let together = (NUMBERS / numbers.max(1)).clamp(1, MOST_ROWS);
+        let writing = InOrder::new(threads.min(MOST_WRITERS), writer, sink);
+        Ok(Self { outputs, writing, filled: Rows::default(), together })
     }
 
     /// Adds the current state.
     pub(super) fn row(&mut self, run: &Simulation) -> std::io::Result<()> {
-        self.waiting.push(self.outputs.moment(run));
-        if self.waiting.len() < BLOCK { Ok(()) } else { self.write_block() }
-    }
-
-    /// Writes the rows of all moments that wait.
-    fn write_block(&mut self) -> std::io::Result<()> {
-        let Self { waiting, writers, sink, .. } = self;
-        let as_text = matches!(sink, Sink::Text(_));
-        let share = waiting.len().div_ceil(writers.len()).max(1);
-        let parts = writers.par_iter_mut().zip(waiting.par_chunks(share));
-        parts.for_each(|(writer, moments)| writer.write(moments, as_text));
-        for writer in writers {
-            sink.rows(writer)?;
-            writer.numbers.clear();
-            writer.text.clear();
+        let Self { outputs, writing, filled, together } = self;
+        if filled.count == filled.moments.len() {
+            filled.moments.push(Moment::default());
         }
-        waiting.clear();
+        outputs.keep(run, &mut filled.moments[filled.count]);
+        filled.count += 1;
+        if filled.count == *together {
+            *filled = writing.push(std::mem::take(filled))?;
+            filled.count = 0;
+        }
         Ok(())
     }
 
     /// Writes what is still held back.
-    pub(super) fn finish(mut self) -> std::io::Result<()> {
-        self.write_block()?;
-        self.sink.finish()
+    pub(super) fn finish(self) -> std::io::Result<()> {
+        self.writing.finish(self.filled)?.finish()
+    }
+}
+
+impl Take<Rows> for Sink {
+    fn take(&mut self, rows: &Rows) -> std::io::Result<()> {
+        match self {
+            Self::Text(table) => table.rows(&rows.text),
+            Self::Arrow(table) => table.add(rows).map_err(std::io::Error::other),
+        }
     }
 }
 
 impl Sink {
-    fn text(out: Box<dyn Write>, run: &Simulation, outputs: &Outputs) -> std::io::Result<Self> {
-        let out: Box<dyn Write> = Box::new(BufWriter::with_capacity(1 << 16, out));
+    fn text(out: Box<dyn Write + Send>, run: &Simulation, outputs: &Outputs) -> std::io::Result<Self> {
+        let out: Box<dyn Write + Send> = Box::new(BufWriter::with_capacity(1 << 16, out));
         TextTable::new(out, run, outputs).map(Self::Text)
     }
 
+    fn finish(self) -> std::io::Result<()> {
+        match self {
+            Self::Text(table) => table.finish().map(drop),
+            Self::Arrow(table) => table.finish().map_err(std::io::Error::other),
+        }
+    }
+}
+
+impl ArrowTable {
     /// Units stand in the metadata of the columns, conventions in that of the table.
-    fn arrow(file: File, run: &Simulation, outputs: &Outputs) -> Result<Self, ArrowError> {
+    fn new(file: File, run: &Simulation, outputs: &Outputs) -> Result<Self, ArrowError> {
         let field = |column: Column| {
             let unit = HashMap::from([("unit".to_owned(), column.unit.to_owned())]);
             Field::new(column.name, DataType::Float64, false).with_metadata(unit)
         };
         let fields: Vec<Field> = all_columns(outputs).map(field).collect();
-        let columns = vec![Vec::with_capacity(BATCH); fields.len()];
+        let batch = (BATCH_NUMBERS / fields.len()).clamp(1, BATCH);
+        let (width, columns) = (fields.len(), vec![0.0; batch * fields.len()]);
         let about = HashMap::from([
             ("triad".to_owned(), head(run)),
             ("conventions".to_owned(), outputs.conventions().join("\n")),
         ]);
         let schema = Schema::new(fields).with_metadata(about);
         let writer = Box::new(FileWriter::try_new_buffered(file, &schema)?);
-        Ok(Self::Arrow { writer, columns })
+        Ok(Self { writer, width, batch, columns, waiting: 0 })
     }
 
-    /// Takes over the rows that a writer has made.
-    fn rows(&mut self, writer: &Writer) -> std::io::Result<()> {
-        match self {
-            Self::Text(table) => table.rows(&writer.text),
-            Self::Arrow { columns, .. } => {
-                for row in writer.numbers.chunks_exact(columns.len()) {
-                    for (column, number) in columns.iter_mut().zip(row) {
-                        column.push(*number);
-                    }
-                }
-                if columns.first().is_some_and(|column| column.len() >= BATCH) {
-                    self.write_batch().map_err(std::io::Error::other)?;
-                }
-                Ok(())
+    /// Adds rows, in plain loops: this crate is compiled for size, and iterators are calls in it.
+    fn add(&mut self, rows: &Rows) -> Result<(), ArrowError> {
+        let (width, mut row) = (self.width, 0);
+        while row < rows.count {
+            if self.waiting == self.batch {
+                self.write_batch()?;
             }
+            // As many rows as there is room for.
+            let end = rows.count.min(row + self.batch - self.waiting);
+            let mut column = 0;
+            while column < width {
+                let place = column * self.batch + self.waiting;
+                let mut from = row;
+                while from < end {
+                    self.columns[place + from - row] = rows.numbers[from * width + column];
+                    from += 1;
+                }
+                column += 1;
+            }
+            self.waiting += end - row;
+            row = end;
         }
+        Ok(())
     }
 
     fn write_batch(&mut self) -> Result<(), ArrowError> {
-        let Self::Arrow { writer, columns } = self else { return Ok(()) };
-        let arrays = columns.iter_mut().map(|column| {
-            let values = std::mem::replace(column, Vec::with_capacity(BATCH));
+        let Self { writer, batch, columns, waiting, .. } = self;
+        let arrays = columns.chunks(*batch).map(|column| {
+            let values = column[..*waiting].to_vec();
             Arc::new(Float64Array::from(values)) as ArrayRef
         });
         let batch = RecordBatch::try_new(Arc::clone(writer.schema()), arrays.collect())?;
+        *waiting = 0;
         writer.write(&batch)
     }
 
-    fn finish(mut self) -> std::io::Result<()> {
-        self.write_batch().map_err(std::io::Error::other)?;
-        match self {
-            Self::Text(table) => table.finish().map(drop),
-            Self::Arrow { mut writer, .. } => writer.finish().map_err(std::io::Error::other),
-        }
+    fn finish(mut self) -> Result<(), ArrowError> {
+        self.write_batch()?;
+        self.writer.finish()
     }
 }
 
@@ -205,25 +256,24 @@ mod tests {
     #[test]
     fn the_number_of_threads_changes_no_byte() {
         let folder = tempfile::tempdir().unwrap();
-        let written = |threads: usize| {
-            let file = folder.path().join(format!("{threads}.csv"));
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| {
-                let mut run = run("spatial-slider-crank");
-                let mut table = Table::create(&file, &run).unwrap();
-                // Two blocks and a part of one.
-                for step in 0..2 * BLOCK + 5 {
-                    run.advance_to(0.005 * step as f64).unwrap();
-                    table.row(&run).unwrap();
-                }
-                table.finish().unwrap();
-            });
+        let written = |ending: &str, threads: usize| {
+            let file = folder.path().join(format!("{threads}.{ending}"));
+            let mut run = run("spatial-slider-crank");
+            let mut table = Table::with_threads(threads, &file, &run).unwrap();
+            // More pieces than may wait, and a part of one.
+            for step in 0..9 * 4 * table.together + 5 {
+                run.advance_to(0.0001 * step as f64).unwrap();
+                table.row(&run).unwrap();
+            }
+            table.finish().unwrap();
             std::fs::read(file).unwrap()
         };
-        let alone = written(1);
-        assert!(alone.len() > 100_000);
-        for threads in [2, 3, 7] {
-            assert!(written(threads) == alone, "{threads} threads");
+        for ending in ["csv", "arrow"] {
+            let alone = written(ending, 1);
+            assert!(alone.len() > 1_000_000, "{}", alone.len());
+            for threads in [2, 4, 8] {
+                assert!(written(ending, threads) == alone, "{threads} threads, {ending}");
+            }
         }
     }
 

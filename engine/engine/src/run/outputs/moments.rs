@@ -4,11 +4,12 @@ use super::{Group, Outputs};
 use crate::run::{Simulation, Snapshot};
 
 /// The current state of a run at one time, with what its row in a table needs beside it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Moment {
     snapshot: Snapshot,
     /// The error of the state, where it is wanted and known.
-    error: Option<Vec<f64>>,
+    error: Vec<f64>,
+    error_known: bool,
     /// Work of drivers and of loads without potential since the start, J, where it is wanted.
     work: f64,
 }
@@ -53,10 +54,10 @@ impl RowWriter {
 
     /// Appends the numbers of a moment of this run, one for each column.
     pub fn write(&mut self, moment: &Moment, row: &mut Vec<f64>) {
-        let Moment { snapshot, error, work } = moment;
+        let Moment { snapshot, error, error_known, work } = moment;
         let Self { outputs, run } = self;
         run.work = *work;
-        run.current.take_over(&run.mechanism.system, snapshot, error.as_deref());
+        run.current.take_over(&run.mechanism.system, snapshot, error_known.then_some(error));
         outputs.write(run, row);
     }
 }
@@ -64,14 +65,21 @@ impl RowWriter {
 impl Outputs {
     /// The current state of a run with what its row needs, to be written later: see [`RowWriter`].
     pub fn moment(&self, run: &Simulation) -> Moment {
+        let mut moment = Moment::default();
+        self.keep(run, &mut moment);
+        moment
+    }
+
+    /// Puts the current state in the place of another moment, whose memory is used again.
+    pub fn keep(&self, run: &Simulation, moment: &mut Moment) {
+        let Moment { snapshot, error, error_known, work } = moment;
         let wants = |group: fn(&Group) -> bool| self.groups.iter().any(group);
-        let error =
-            if wants(|group| matches!(group, Group::Errors { .. })) { run.error_of_state() } else { None };
-        let work = if wants(|group| matches!(group, Group::Balance)) {
+        run.keep(snapshot);
+        *error_known = wants(|group| matches!(group, Group::Errors { .. })) && run.keep_error(error);
+        *work = if wants(|group| matches!(group, Group::Balance)) {
             run.work + run.work_up_to_current()
         } else {
             0.0
         };
-        Moment { snapshot: run.snapshot(), error, work }
     }
 }
