@@ -285,8 +285,10 @@ mod tests {
         let mut tables = files.each_ref().map(|file| Table::create(file, &run).unwrap());
         let outputs = Outputs::new(&run);
         let mut rows = Vec::new();
-        for step in 0..5 {
-            run.advance_to(0.01 * f64::from(step)).unwrap();
+        // More than an Arrow file holds together.
+        let count = BATCH_NUMBERS / outputs.columns().len() + 5;
+        for step in 0..count {
+            run.advance_to(0.0005 * step as f64).unwrap();
             for table in &mut tables {
                 table.row(&run).unwrap();
             }
@@ -307,10 +309,13 @@ mod tests {
         assert_eq!(names.len(), rows[0].len());
         assert!(text.contains(&names[7]), "{names:?}");
         let batches: Vec<RecordBatch> = reader.map(Result::unwrap).collect();
-        for (index, column) in batches[0].columns().iter().enumerate() {
-            let column = column.as_any().downcast_ref::<Float64Array>().unwrap();
+        assert!(batches.len() > 1);
+        for index in 0..names.len() {
+            let parts =
+                batches.iter().map(|batch| batch.column(index).as_any().downcast_ref::<Float64Array>());
+            let column: Vec<f64> = parts.flat_map(|part| part.unwrap().values().to_vec()).collect();
             let expected: Vec<f64> = rows.iter().map(|row| row[index]).collect();
-            assert_eq!(column.values().to_vec(), expected);
+            assert_eq!(column, expected);
         }
     }
 }
