@@ -49,6 +49,7 @@ pub fn about_pivots(system: &System, q: &[f64], plane: Option<&Plane>) -> Option
     Some(held)
 }
 
+/// The point of the ground in which a joint holds a body, if the body can be described about it.
 fn pivot(system: &System, own: &Constraint, q: &[f64], plane: Option<&Plane>) -> Option<Pivot> {
     let rows = &system.rows[own.forms.clone()];
     if plane.is_none() && rows.len() > 1 {

@@ -10,12 +10,20 @@ use crate::newton::Projectable;
 use crate::system::System;
 use crate::system::index::SolverRow;
 use pulp::Arch;
+use std::f64::consts::PI;
 use triad_linalg::larger;
 
 /// Order of the series at a single state: that of the accelerations.
 const ACCELERATIONS: usize = 2;
 /// Part of the tolerance below which the last terms of the power, beside all of them, show that there is nothing more to find.
 const COMPLETE: f64 = 0.1;
+/// Part of all terms above which the last ones show that the series of the power hardly converge, as about a state beside a singular
+/// position: it is then a polynomial through powers within the step.
+const ROUGH: f64 = 1e-4;
+/// The powers that this goes through.
+const NODES: usize = 12;
+/// Greatest size of the term that is found, in the last ones known: near a singular position the power of a single state is noise.
+const PLAUSIBLE: f64 = 10.0;
 /// A step: its start and size, s, the order at which it was cut, and the terms of its power.
 #[derive(Clone, Copy)]
 pub(super) struct Taken {
@@ -61,12 +69,52 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         if last <= COMPLETE * tolerance * all {
             return;
         }
+        if last > ROUGH * all {
+            self.interpolate_power(taken);
+            return;
+        }
         // Gauss's point for the weight τ^n of what is left out: its work is exact for two of its terms.
         let tau = h * (terms + 1) as f64 / (terms + 2) as f64;
         let power = self.power_at(taken, tau);
         let known = self.power[..terms].iter().rev().fold(0.0, |sum, p| sum * tau + p);
-        let missing = (0..terms).fold(power - known, |missing, _| missing / tau);
-        self.power[terms] = if missing.is_finite() { missing } else { 0.0 };
+        let (mut missing, mut at_end) = (power - known, power - known);
+        for _ in 0..terms {
+            (missing, at_end) = (missing / tau, at_end * h / tau);
+        }
+        if at_end.abs() <= PLAUSIBLE * last {
+            self.power[terms] = missing;
+        }
+    }
+
+    /// Replaces the series of the power by the polynomial through powers at Chebyshev's points of the step.
+    fn interpolate_power(&mut self, taken: Taken) {
+        let count = NODES.min(self.power.len());
+        let (mut places, mut differences) = ([0.0; NODES], [0.0; NODES]);
+        for (i, (place, value)) in places.iter_mut().zip(&mut differences).enumerate().take(count) {
+            *place = 0.5 - 0.5 * libm::cos((i as f64 + 0.5) * PI / count as f64);
+            *value = self.power_at(taken, *place * taken.h);
+        }
+        for order in 1..count {
+            for i in (order..count).rev() {
+                differences[i] = (differences[i] - differences[i - 1]) / (places[i] - places[i - order]);
+            }
+        }
+        // From Newton's form to coefficients of powers of τ/h.
+        let mut coefficients = [0.0; NODES];
+        for i in (0..count).rev() {
+            for k in (1..count).rev() {
+                coefficients[k] = coefficients[k - 1] - places[i] * coefficients[k];
+            }
+            coefficients[0] = differences[i] - places[i] * coefficients[0];
+        }
+        if coefficients.iter().all(|c| c.is_finite()) {
+            self.power.fill(0.0);
+            let mut scale = 1.0;
+            for (power, c) in self.power.iter_mut().zip(&coefficients[..count]) {
+                *power = c * scale;
+                scale /= taken.h;
+            }
+        }
     }
 
     /// Sizes of the terms of the power at the end of a step: all together, and the larger of the last two.
