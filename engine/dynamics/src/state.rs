@@ -12,6 +12,7 @@ mod pace;
 mod rows;
 
 pub use angle::AngleState;
+pub(crate) use angle::nearest;
 pub use forces::AppliedForces;
 pub use frame::BodyFrame;
 pub use pace::{fastest, pace};

@@ -2,7 +2,7 @@
 //! driver prescribes and what a gear makes of another angle tell them — eq. (4.7).
 
 use crate::model::DriverKind;
-use crate::state::State;
+use crate::state::{State, nearest};
 use crate::system::System;
 use crate::system::row::Form;
 use std::f64::consts::TAU;
@@ -68,11 +68,6 @@ pub fn count(system: &System, state: &mut State) {
         }
     }
     state.set_revolutions(angles.into_iter());
-}
-
-/// The angle that differs from `angle` by whole turns and lies nearest to `wanted`.
-fn nearest(angle: f64, wanted: f64) -> f64 {
-    angle + TAU * ((wanted - angle) / TAU).round()
 }
 
 /// Whole turns of the first wheel, as an angle, with which the second one meets the gear best: no more of them than that takes.

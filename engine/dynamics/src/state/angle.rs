@@ -18,12 +18,17 @@ pub struct AngleState {
     pub reference: f64,
 }
 
+/// The angle that differs from `angle` by whole turns and lies nearest to `wanted`.
+pub fn nearest(angle: f64, wanted: f64) -> f64 {
+    angle + TAU * ((wanted - angle) / TAU).round()
+}
+
 impl AngleState {
     /// Takes over positions of (a₁, a₂, b).
     pub fn set_position(&mut self, [a1, a2, b]: [Vector3<f64>; 3]) {
         let (x, y) = (a1.dot(&b), a2.dot(&b));
         let principal = libm::atan2(y, x);
-        self.value = principal + TAU * ((self.reference - principal) / TAU).round();
+        self.value = nearest(principal, self.reference);
         let square = (x * x + y * y).max(f64::MIN_POSITIVE);
         self.gradient = [b * (-y / square), b * (x / square), (a2 * x - a1 * y) / square];
     }

@@ -6,7 +6,7 @@ use crate::scene::LoadFrame;
 use crate::system::feature::Difference;
 use crate::system::index::FeatureId;
 use crate::system::row_builder::RowBuilder;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// A load, its geometry as features.
 #[derive(Clone, Debug)]
@@ -98,6 +98,32 @@ impl SystemLoad {
             Self::Slider { axis, between, .. } => {
                 [*axis, between.plus].into_iter().chain(between.minus).collect()
             }
+        }
+    }
+
+    /// Writes it in frames that stand otherwise: in a body's new one a point is `turn` times what lies between `origin` and it. What has
+    /// no new frame stays.
+    pub fn turn(
+        &mut self,
+        of_body: impl Fn(usize) -> Option<(Matrix3<f64>, Vector3<f64>)>,
+        of_world: Option<&Matrix3<f64>>,
+    ) {
+        let (body, curve, frame) = match self {
+            Self::Force { body, local, force, frame } => {
+                if let Some((turn, origin)) = of_body(*body) {
+                    *local = turn * (*local - origin);
+                }
+                (*body, force, *frame)
+            }
+            Self::Moment { body, moment, frame } => (*body, moment, *frame),
+            Self::Spring { .. } | Self::Torsion { .. } | Self::Slider { .. } => return,
+        };
+        let turn = match frame {
+            LoadFrame::Body => of_body(body).map(|(turn, _)| turn),
+            LoadFrame::World => of_world.copied(),
+        };
+        if let Some(turn) = turn {
+            *curve = curve.clone().rotated(&turn);
         }
     }
 

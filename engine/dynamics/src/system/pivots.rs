@@ -4,15 +4,13 @@
 //! rows, and what acts on r says nothing.
 
 use crate::model::{BodyRef, ModelBody};
-use crate::scene::LoadFrame;
 use crate::system::body::{BodyPart, GroundPivot, RigidBody};
 use crate::system::index::FeatureId;
-use crate::system::load::SystemLoad;
 use crate::system::natural::NaturalCoordinates;
 use crate::system::planar::Plane;
 use crate::system::row::Form;
 use crate::system::{Constraint, Row, System};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use std::convert::Infallible;
 
 /// Distance, in lengths of the mechanism, of a body's other joints from its pivot below which it keeps its rows: a second hinge on the same
@@ -118,26 +116,8 @@ impl Pivot {
         let pivot = Some(GroundPivot { ground, center: axes.tr_mul(&-point) });
         let body = RigidBody::new(&model, old.layout, arm, held.length);
         held.bodies[index] = RigidBody { parts, pivot, ..body };
-        self.turn_loads(&mut held.loads, &axes.transpose());
-    }
-
-    fn turn_loads(&self, loads: &mut [SystemLoad], turn: &Matrix3<f64>) {
-        for load in loads {
-            let (body, curve, frame) = match load {
-                SystemLoad::Force { body, local, force, frame } => {
-                    if *body == self.body {
-                        *local = turn * (*local - self.point);
-                    }
-                    (*body, force, *frame)
-                }
-                SystemLoad::Moment { body, moment, frame } => (*body, moment, *frame),
-                SystemLoad::Spring { .. } | SystemLoad::Torsion { .. } | SystemLoad::Slider { .. } => {
-                    continue;
-                }
-            };
-            if body == self.body && frame == LoadFrame::Body {
-                *curve = curve.clone().rotated(turn);
-            }
+        for load in &mut held.loads {
+            load.turn(|body| (body == index).then(|| (axes.transpose(), point)), None);
         }
     }
 }

@@ -8,11 +8,9 @@
 
 use crate::model::motion::{Curve, VectorCurve};
 use crate::model::{BodyRef, JointGeometry, ModelJoint};
-use crate::scene::LoadFrame;
 use crate::system::body::{LACKING, PlanarPose, RigidBody};
 use crate::system::feature::{Difference, Target};
 use crate::system::index::FeatureId;
-use crate::system::load::SystemLoad;
 use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
 use crate::system::{Row, System};
@@ -131,15 +129,14 @@ impl Plane {
         Vector3::from(place.e.map(|e| e.dot(&normal)))
     }
 
-    /// The system with the coordinates of the plane and the rows that matter there, at positions q.
+    /// A system with the coordinates of the plane and the rows that matter there, at positions q.
     ///
     /// # Errors
     ///
     /// [`Spatial`]: what of the system has no counterpart in a plane.
-    pub fn reduce(&self, system: &System, q: &[f64]) -> Result<System, Spatial> {
-        let mut flat = system.clone();
+    pub fn reduce(&self, mut flat: System, q: &[f64]) -> Result<System, Spatial> {
         let turned = self.frame.transpose();
-        flat.model.gravity = turned * system.model.gravity;
+        flat.model.gravity = turned * flat.model.gravity;
         for body in &mut flat.bodies {
             let place = body.position(q);
             let directors = turned * Matrix3::from_columns(&place.e);
@@ -147,7 +144,10 @@ impl Plane {
             body.planar_pose = Some(PlanarPose::new(self.frame, directors, height));
         }
         turn_features(&mut flat, &turned);
-        turn_loads(&mut flat, &turned);
+        let System { loads, bodies, .. } = &mut flat;
+        for load in loads {
+            load.turn(|body| Some((directors(&bodies[body]), Vector3::zeros())), Some(&turned));
+        }
         flat.keep_rows(kept, independent)?;
         set_inertia(&mut flat);
         Ok(flat)
@@ -184,22 +184,6 @@ fn turn_features(flat: &mut System, turned: &Matrix3<f64>) {
         if let Some(curve) = feature.curve {
             curves[curve] = curves[curve].clone().rotated(&turn);
         }
-    }
-}
-
-fn turn_loads(flat: &mut System, turned: &Matrix3<f64>) {
-    let System { loads, bodies, .. } = flat;
-    for load in loads {
-        let (body, curve, frame) = match load {
-            SystemLoad::Force { body, local, force, frame } => {
-                *local = directors(&bodies[*body]) * *local;
-                (*body, force, *frame)
-            }
-            SystemLoad::Moment { body, moment, frame } => (*body, moment, *frame),
-            SystemLoad::Spring { .. } | SystemLoad::Torsion { .. } | SystemLoad::Slider { .. } => continue,
-        };
-        let turn = if frame == LoadFrame::Body { directors(&bodies[body]) } else { *turned };
-        *curve = curve.clone().rotated(&turn);
     }
 }
 

@@ -29,37 +29,33 @@ pub(super) struct CachedState {
 }
 
 /// A state that is taken over when it is first looked at: rows of a table are written by other threads, with states of their own.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct LateState {
     known: OnceLock<State>,
-    /// That of another time, from whose angles whole turns are counted on; none where the state is known.
-    other: Mutex<Option<State>>,
+    /// Angles from which whole turns are counted on, as long as the state is not known.
+    turns: Vec<f64>,
+    /// A state of another time, whose memory is used again.
+    spare: Mutex<Option<State>>,
 }
 
 impl LateState {
     fn known(state: State) -> Self {
-        Self { known: OnceLock::from(state), other: Mutex::default() }
+        Self { known: OnceLock::from(state), ..Self::default() }
     }
 
     /// At the next time, whole turns being counted from these angles on.
     fn go_on(&mut self, turns: impl Iterator<Item = f64>) {
-        let other = self.other.get_mut().unwrap_or_else(PoisonError::into_inner);
+        self.turns.clear();
+        self.turns.extend(turns);
         if let Some(known) = self.known.take() {
-            *other = Some(known);
-        }
-        if let Some(state) = other {
-            state.set_revolutions(turns);
+            *self.spare.get_mut().unwrap_or_else(PoisonError::into_inner) = Some(known);
         }
     }
 }
 
 impl Clone for LateState {
     fn clone(&self) -> Self {
-        if let Some(known) = self.known.get() {
-            return Self::known(known.clone());
-        }
-        let other = self.other.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        Self { known: OnceLock::new(), other: Mutex::new(other) }
+        Self { known: self.known.clone(), turns: self.turns.clone(), spare: Mutex::default() }
     }
 }
 
@@ -206,8 +202,9 @@ impl CachedState {
     /// The state.
     pub fn state(&self, system: &System) -> &State {
         self.state.known.get_or_init(|| {
-            let other = self.state.other.lock().unwrap_or_else(PoisonError::into_inner).take();
-            let mut state = other.unwrap_or_else(|| State::new(system));
+            let spare = self.state.spare.lock().unwrap_or_else(PoisonError::into_inner).take();
+            let mut state = spare.unwrap_or_else(|| State::new(system));
+            state.set_revolutions(self.state.turns.iter().copied());
             let (q, q_dot) = self.y.split_at(system.coordinates);
             state.set(system, self.time, q, q_dot);
             state

@@ -31,7 +31,8 @@ fn balls() -> Scene {
 fn compare(scene: &Scene, in_plane: bool) -> Option<(f64, f64)> {
     let run = Simulation::new(scene).unwrap();
     let system = run.system();
-    let flat = in_plane.then(|| planar::recognize(system, run.q()).unwrap().reduce(system, run.q()).unwrap());
+    let flat = in_plane
+        .then(|| planar::recognize(system, run.q()).unwrap().reduce(system.clone(), run.q()).unwrap());
     let solved = flat.as_ref().unwrap_or(system);
     let mut series = if in_plane {
         IslandSeries::in_plane(solved, ORDER, &[])

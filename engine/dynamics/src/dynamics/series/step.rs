@@ -363,7 +363,8 @@ mod tests {
             let mut y = vec![0.0; 2 * system.coordinates];
             let (q, q_dot) = y.split_at_mut(system.coordinates);
             system.start(q, q_dot);
-            let flat = planar::recognize(system, q).ok().map(|plane| plane.reduce(system, q).unwrap());
+            let flat =
+                planar::recognize(system, q).ok().map(|plane| plane.reduce(system.clone(), q).unwrap());
             assert_eq!(flat.is_some(), name == "n-four-bar:2");
             match flat {
                 Some(flat) => compare(name, &flat, Series::<4, Planar<4>>::planar(&flat, 12, &[]), y),

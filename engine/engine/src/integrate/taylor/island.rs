@@ -3,14 +3,17 @@
 use crate::integrate::step::StopReason;
 use crate::integrate::stepper::IslandStep;
 use crate::integrate::track::Track;
+use crate::scene::Skip;
 use std::ops::RangeInclusive;
 use triad_dynamics::constraints::violation;
 use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
 use triad_dynamics::dynamics::series::{IslandSeries, MIN_TOLERANCE_REDUNDANT, StepPlan};
 use triad_dynamics::model::BodyRef;
 use triad_dynamics::state::State;
+use triad_dynamics::system::System;
 use triad_dynamics::system::islands::{self, Island};
-use triad_dynamics::system::{System, pivots, planar};
+use triad_dynamics::system::pivots::about_pivots;
+use triad_dynamics::system::planar::{self, Plane};
 
 /// Highest order of the series.
 const MAX_ORDER: usize = 30;
@@ -73,24 +76,24 @@ impl IslandStepper {
         let constraints = own.as_ref().map(|own| places(whole, own));
         let skip = whole.model.settings.skip;
         let q = &y[..whole.coordinates];
-        let plane = if skip.planar { planar::recognize(system, q).ok() } else { None };
-        let held = if skip.fixed { pivots::about_pivots(system, q, plane.as_ref()) } else { None };
-        let in_space = held.as_ref().unwrap_or(system);
-        let flat = plane.and_then(|plane| plane.reduce(in_space, q).ok());
-        let solved = flat.as_ref().unwrap_or(in_space);
-        let order = order_for(tolerance, flat.is_some());
+        let (reduced, in_plane) = reduced(system, q, skip);
+        let solved = reduced.as_ref().unwrap_or(system);
+        let order = order_for(tolerance, in_plane);
         let most = if system.bodies.len() > FEW_BODIES { order } else { MAX_ORDER };
         let rows = solved.solver_rows;
         let loops = islands::has_loops(&system.model);
-        let series_of = |measured: &System, order: usize| match flat {
-            None => IslandSeries::in_space(measured, order, turns),
-            Some(_) => IslandSeries::in_plane(measured, order, turns),
+        let series_of = |measured: &System, order: usize| {
+            if in_plane {
+                IslandSeries::in_plane(measured, order, turns)
+            } else {
+                IslandSeries::in_space(measured, order, turns)
+            }
         };
         let mut series = series_of(solved, most);
         series.keep_constants(skip.constants);
         series.place(solved, t, y);
         let mut dependent = Vec::new();
-        if (flat.is_some() || redundant) && rows > 0 {
+        if (in_plane || redundant) && rows > 0 {
             let mut measured = series_of(&solved.in_lengths(), 1);
             measured.place(solved, t, y);
             dependent = measured.find_dependent(system.length, redundant);
@@ -109,7 +112,7 @@ impl IslandStepper {
         let (length, bodies, pivots) = (system.length, system.bodies.len(), rowless(solved));
         Self {
             loops,
-            own: flat.or(held).or(own).map(Box::new),
+            own: reduced.or(own).map(Box::new),
             constraints,
             pivots,
             tolerance,
@@ -329,6 +332,21 @@ impl Track for IslandStepper {
         for (pivot, others) in &self.pivots {
             shares[*pivot] = others.iter().map(|other| shares[*other]).fold(shares[*pivot], f64::max);
         }
+    }
+}
+
+/// A system with the coordinates and rows that are solved, if these are not all: those of a plane, which is told, or those of bodies about
+/// points of the ground.
+fn reduced(system: &System, q: &[f64], skip: Skip) -> (Option<System>, bool) {
+    let held = |plane: Option<&Plane>| if skip.fixed { about_pivots(system, q, plane) } else { None };
+    let plane = if skip.planar { planar::recognize(system, q).ok() } else { None };
+    let flat = plane.and_then(|plane| {
+        let in_space = held(Some(&plane)).unwrap_or_else(|| system.clone());
+        plane.reduce(in_space, q).ok()
+    });
+    match flat {
+        None => (held(None), false),
+        flat => (flat, true),
     }
 }
 
