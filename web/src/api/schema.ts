@@ -4225,7 +4225,8 @@ export interface components {
              */
             constants?: boolean;
             /**
-             * @description Bodies that rigid connections tie to the ground, or to another body that then moves for both (integrator `taylor`).
+             * @description Bodies that rigid connections tie to the ground, or to another body that then moves for both, and rows that hold a body in a
+             *     point of the ground (integrator `taylor`).
              * @default true
              */
             fixed?: boolean;
