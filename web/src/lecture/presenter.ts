@@ -256,11 +256,14 @@ export class PresenterPanel {
 
   /** Sends a request for the lecture that is open; a failure is shown in the panel. */
   private async attempt(run: (lecture: OwnLecture) => Promise<void>): Promise<void> {
-    if (!this.lecture) return;
+    const { lecture } = this;
+    if (!lecture) return;
     try {
-      await run(this.lecture);
+      await run(lecture);
       this.trouble.replaceChildren();
     } catch (error) {
+      // The room has another name since: what its old one answers says nothing about it.
+      if (this.lecture !== lecture) return;
       // A lecture that is over, or that another browser leads now, is no longer ours.
       if (error instanceof ApiError && (error.gone || error.problem.status === 403)) this.forget();
       this.trouble.replaceChildren(problemNotice(error));
