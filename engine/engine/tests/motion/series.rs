@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::problem;
+use serde_json::{Value, json};
 use triad_engine::catalogue;
 use triad_engine::dynamics::series::IslandSeries;
 use triad_engine::run::Simulation;
@@ -198,4 +199,33 @@ fn the_work_of_drivers_is_as_exact_as_the_tolerance_asks() {
         }
     }
     assert!(missed.is_empty(), "{missed:#?}");
+}
+
+/// A body that nothing joins to others, by Euler's equations, moves as by the equations of all bodies, which a load of no force asks for:
+/// free and about a pivot, in space and in a plane.
+#[test]
+fn a_body_alone_moves_as_by_the_equations_of_all() {
+    let body = json!({"name": "body", "mass": 1.7, "position": [0.3, -0.2, 0.5], "center_of_mass": [0.11, 0.07, -0.05],
+        "orientation": {"axis": [0.2, 0.5, -0.4], "angle": 0.9}, "inertia": {"principal": [0.31, 0.47, 0.63]},
+        "velocity": [0.3, 0.1, -0.2], "angular_velocity": [2.0, -1.3, 3.1]});
+    let flat = json!({"name": "body", "mass": 1.7, "position": [0.4, 0.1, 0.5], "orientation": {"axis": [0.0, 1.0, 0.0], "angle": 0.4},
+        "inertia": {"principal": [0.31, 0.47, 0.63]}, "velocity": [0.3, 0.0, 0.4], "angular_velocity": [0.0, 2.6, 0.0]});
+    let ball = json!([{"name": "O", "type": "spherical", "body_i": "ground", "body_j": "body", "point": [-0.1, 0.2, 0.3]}]);
+    let hinge = json!([{"name": "O", "type": "revolute", "body_i": "ground", "body_j": "body", "point": [0.0, 0.0, 0.0], "axis": [0.0, 1.0, 0.0]}]);
+    for (name, body, joints) in [
+        ("free", &body, json!([])),
+        ("ball", &body, ball),
+        ("thrown", &flat, json!([])),
+        ("hinge", &flat, hinge),
+    ] {
+        let scene = |loads: Value| {
+            let scene = json!({"name": name, "bodies": [body], "joints": joints, "loads": loads, "gravity": [0.4, 0.0, -9.81],
+                "simulation": {"tolerance": 1e-10, "integrator": "taylor", "duration": 2.0}});
+            Scene::from_json(&scene.to_string()).unwrap()
+        };
+        let nothing = json!({"name": "f", "type": "force", "body": "body", "point": [0.2, 0.1, 0.0], "force": [0.0, 0.0, 0.0]});
+        let (alone, joined) = (scene(json!([])), scene(json!([nothing])));
+        let off = difference(&alone, &joined);
+        assert!(off < 1e-12, "{name}: {off:e}");
+    }
 }

@@ -14,6 +14,10 @@ mod pair;
 
 mod components;
 
+mod alone;
+
+mod alone_in_plane;
+
 mod single;
 
 mod planar;

@@ -1,10 +1,10 @@
 //! The recurrence over the orders: from all coefficients before them to Q_(n+2) and λ_n.
 
-use super::lanes::times;
+use super::lanes::{raise_whole, times};
 use super::recurrence::real;
 use super::{Bodies, Series};
 use pulp::{Simd, WithSimd};
-use triad_linalg::{fma, larger, raise};
+use triad_linalg::{fma, larger};
 
 /// Iterative refinements of a solution with the factor of a regularized S, which take its effect out again.
 const REFINEMENTS: usize = 2;
@@ -21,10 +21,6 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.begin_expansion();
         let order = order.min(self.stride - 1);
         let first = usize::from(self.recall_evaluation());
-        if self.is_bare() && !self.regularizes_inertia {
-            self.expand_bare(simd, first, order);
-            return order;
-        }
         for n in first..order.max(2) - 1 {
             self.solve_order(simd, n);
             if enough(self, n + 2) {
@@ -55,34 +51,31 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.counters.evaluations += 1;
     }
 
-    /// The same where bodies have nothing to do with each other: all orders of one after those of another. Nothing has a breakpoint
-    /// there, so that no order is enough before the last.
+    /// Q_(n+2) of bodies that have nothing to do with each other. Returns whether it is known.
     #[inline(always)]
-    fn expand_bare<S: Simd>(&mut self, simd: S, first: usize, order: usize) {
-        let Self { bundles, q, p, sizes, stride, .. } = self;
-        sizes[first + 2..].fill(0.0);
-        for ((bundle, q), p) in
-            bundles.iter_mut().zip(q.chunks_exact_mut(*stride)).zip(p.chunks_exact_mut(*stride))
-        {
-            for n in first..order.max(2) - 1 {
-                let kappa = real((n + 1) * (n + 2));
-                bundle.clear_force();
-                if n == 0 {
-                    bundle.add_weight();
-                }
-                let (gamma, moment) = bundle.alone(simd, q, p, n, kappa);
-                bundle.begin(simd, &q[0], &gamma, moment);
-                let mut largest = [sizes[n + 2], 0.0, 0.0, 0.0];
-                take_solution::<L, B>(bundle, 1.0 / kappa, &mut q[n + 2], &mut largest);
-                p[n] = bundle.director_forces(simd);
-                sizes[n + 2] = largest.into_iter().fold(0.0, larger);
+    fn solve_alone<S: Simd>(&mut self, simd: S, n: usize) -> bool {
+        let mut largest = [0.0; 4];
+        let mut rest = &mut self.q[..];
+        for bundle in &mut self.bundles {
+            let (q, others) = rest.split_at_mut(self.stride);
+            rest = others;
+            let Some(next) = bundle.alone(simd, q, n) else { return false };
+            // Before it is stored: numbers stored one by one are slow to read back in one piece.
+            for next in B::fours(&next) {
+                raise_whole(simd, &mut largest, next);
             }
+            q[n + 2] = next;
         }
+        self.sizes[n + 2] = largest.into_iter().fold(0.0, larger);
+        true
     }
 
     /// Q_(n+2) and λ_n from all coefficients before them — eq. (11.2).
     #[inline(always)]
     pub(super) fn solve_order<S: Simd>(&mut self, simd: S, n: usize) {
+        if self.is_bare() && !self.regularizes_inertia && self.solve_alone(simd, n) {
+            return;
+        }
         let kappa = real((n + 1) * (n + 2));
         let over_kappa = 1.0 / kappa;
         let needs_values = self.needs_values;
@@ -111,7 +104,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let mut largest = [0.0; 4];
         for (b, bundle) in self.bundles.iter().enumerate() {
             let at = b * self.stride + n;
-            take_solution::<L, B>(bundle, over_kappa, &mut self.q[at + 2], &mut largest);
+            take_solution::<S, L, B>(simd, bundle, over_kappa, &mut self.q[at + 2], &mut largest);
             self.p[at] = bundle.director_forces(simd);
         }
         self.sizes[n + 2] = largest.into_iter().fold(0.0, larger);
@@ -251,19 +244,18 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 }
 
 /// Takes over what a bundle has found, times 1/κ, as its next coefficient, and raises the largest numbers to those in it: four at a
-/// time, whatever they belong to, as all kinds of bodies have a multiple of that.
+/// time, whatever they belong to.
 #[inline(always)]
-fn take_solution<const L: usize, B: Bodies<L>>(
+fn take_solution<S: Simd, const L: usize, B: Bodies<L>>(
+    simd: S,
     bundle: &B,
     over_kappa: f64,
     next: &mut B::Natural,
     largest: &mut [f64; 4],
 ) {
-    let next = B::lanes_mut(next).as_flattened_mut().as_chunks_mut().0;
-    let solution = B::lanes(bundle.solution()).as_flattened().as_chunks().0;
-    for (q, a) in next.iter_mut().zip(solution) {
+    for (q, a) in B::fours_mut(next).iter_mut().zip(B::fours(bundle.solution())) {
         *q = times(a, &[over_kappa; 4]);
-        raise(largest, q);
+        raise_whole(simd, largest, q);
     }
 }
 

@@ -242,6 +242,15 @@ pub fn lanes_of_rows<S: Simd, const L: usize>(simd: S, rows: &[[f64; 4]; L]) -> 
     lanes
 }
 
+/// Raises each of four numbers to the size of the one beside it, where that is larger; those that are none raise nothing.
+#[inline(always)]
+pub fn raise_whole<S: Simd>(simd: S, largest: &mut Lane<4>, x: &Lane<4>) {
+    match (register::<S, 4>(largest), register::<S, 4>(x)) {
+        (Some(most), Some(x)) => *largest = lane::<S, 4>(simd.max_f64s(simd.abs_f64s(x), most)),
+        _ => raise(largest, x),
+    }
+}
+
 /// Largest |x| over all components of the first `lanes` lanes.
 #[inline(always)]
 pub fn largest<const L: usize>(x: &[Lane<L>]) -> f64 {

@@ -49,9 +49,11 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Writes the accelerations q̈ of order 0.
     pub fn store_accelerations(&self, system: &System, out: &mut [f64]) {
-        for bundle in &self.bundles {
+        for (bundle, q) in self.bundles.iter().zip(self.q.chunks(self.stride)) {
+            let mut accelerations = q[2];
+            B::fours_mut(&mut accelerations).as_flattened_mut().iter_mut().for_each(|x| *x *= 2.0);
             for (lane, body) in system.bodies[bundle.bodies()].iter().enumerate() {
-                body.store(&bundle.write(lane, bundle.solution(), true), out);
+                body.store(&bundle.write(lane, &accelerations, true), out);
             }
         }
     }

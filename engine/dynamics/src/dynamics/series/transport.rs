@@ -304,8 +304,9 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         twin.state.copy_from_slice(&series.state);
         let solves = twin.counters.solves;
         twin.evaluate_here();
-        // Rows that are not linear, and loads, keep more of it than that.
-        self.evaluated = (!at_break && !twin.needs_values).then_some(twin.counters.solves - solves);
+        // Rows that are not linear, loads, and bodies alone keep more of it than that.
+        self.evaluated =
+            (!at_break && !twin.needs_values && !twin.is_bare()).then_some(twin.counters.solves - solves);
         let (step, arrived) = (self.step, &self.arrived);
         let missed = Missed::<L, B> {
             series: &series.q,

@@ -4,7 +4,7 @@
 use crate::dynamics::series::lanes::{
     Lane, LaneVector, Natural, difference_whole, plus_whole, rows_of_lanes, sum_whole, times_whole,
 };
-use crate::dynamics::series::recurrence::{for_folded, real};
+use crate::dynamics::series::recurrence::for_folded;
 use pulp::Simd;
 
 /// The components of a vector, and zero.
@@ -117,39 +117,6 @@ impl Products {
         }
         gamma
     }
-}
-
-/// [`gram`] of order n + 2, and [`moment`] of order n for directors on which only a constant force acts, given −Ī and that force: e × ë is
-/// the rate of e × ė, of which half of the products tell all.
-#[inline(always)]
-pub fn alone<S: Simd>(
-    simd: S,
-    q: &[[Components; 4]],
-    [minus_ibar, force]: [&[Components; 3]; 2],
-    n: usize,
-    kappa: f64,
-) -> ([Components; 2], Components) {
-    let m = n + 2;
-    let mut sums = Products::default();
-    let half = (m - 1) / 2;
-    let (mut ahead, mut behind, mut weight) = ([ZERO; 3], [ZERO; 3], [real(m - 2 * half); 4]);
-    let (heads, tails) = (&q[1..=half], &q[m - half..m]);
-    for_folded!(heads, tails, e, f => {
-        sums.add(simd, e, f);
-        for k in 0..3 {
-            let weighed = times_whole(simd, &weight, &e[1 + k]);
-            ahead[k] = plus_whole(simd, &weighed, &turned(f[1 + k]), &ahead[k]);
-            behind[k] = plus_whole(simd, &turned(weighed), &f[1 + k], &behind[k]);
-        }
-        weight = sum_whole(simd, &weight, &[2.0; 4]);
-    });
-    let mut all = ZERO;
-    for k in 0..3 {
-        all = plus_whole(simd, &minus_ibar[k], &difference_whole(simd, &ahead[k], &behind[k]), &all);
-    }
-    let rate = times_whole(simd, &[real(n + 1); 4], &turned(all));
-    let moment = if n == 0 { rate } else { sum_whole(simd, &rate, &cross(simd, directors(&q[n]), force)) };
-    (sums.gram(simd, m.is_multiple_of(2).then_some(&q[m / 2]), kappa), moment)
 }
 
 /// Σ_k Σ e_k(i) × p_k(n−i) over 0 < i ≤ n: the part of the moment that lower orders make.

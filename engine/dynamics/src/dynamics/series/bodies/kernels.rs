@@ -88,6 +88,16 @@ pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     fn lanes(x: &Self::Natural) -> &[Lane<L>];
     /// All components.
     fn lanes_mut(x: &mut Self::Natural) -> &mut [Lane<L>];
+    /// Their numbers, four at a time: all kinds of bodies have a multiple of that.
+    #[inline(always)]
+    fn fours(x: &Self::Natural) -> &[Lane<4>] {
+        Self::lanes(x).as_flattened().as_chunks().0
+    }
+    /// The same.
+    #[inline(always)]
+    fn fours_mut(x: &mut Self::Natural) -> &mut [Lane<4>] {
+        Self::lanes_mut(x).as_flattened_mut().as_chunks_mut().0
+    }
 
     /// Takes over the position or velocity of a body.
     fn read(&self, lane: usize, lift: &NaturalCoordinates, out: &mut Self::Natural);
@@ -150,17 +160,10 @@ pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     fn gram<S: Simd>(simd: S, q: &[Self::Natural], n: usize, kappa: f64) -> Self::Rigid;
     /// Σ_k Σ e_k(i) × p_k(n−i) over 0 < i ≤ n: the part of the moment that lower orders make.
     fn moment<S: Simd>(simd: S, q: &[Self::Natural], p: &[Self::Directors], n: usize) -> Self::Moment;
-    /// The first of order n + 2, and the second of order n, of bodies on which nothing acts but their weight.
+    /// Q_(n+2) of bodies on which nothing acts but their weight, from the coefficients before it, if it is known.
     #[inline(always)]
-    fn alone<S: Simd>(
-        &self,
-        simd: S,
-        q: &[Self::Natural],
-        p: &[Self::Directors],
-        n: usize,
-        kappa: f64,
-    ) -> (Self::Rigid, Self::Moment) {
-        (Self::gram(simd, q, n + 2, kappa), Self::moment(simd, q, p, n))
+    fn alone<S: Simd>(&mut self, _: S, _q: &[Self::Natural], _n: usize) -> Option<Self::Natural> {
+        None
     }
     /// No moment.
     fn no_moment() -> Self::Moment;

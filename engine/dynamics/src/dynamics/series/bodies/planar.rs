@@ -3,6 +3,7 @@
 //! A point is P = r + a z + b J z with J a quarter turn, the only rigid-body row is z · z = 1, the twist is
 //! (ṙ, ω) with three components, and the mass matrix is diag(m, m, I, I) with the moment of inertia I about the normal.
 
+use super::alone_in_plane::AloneInPlane;
 use super::kernels::Bodies;
 use super::pair::{Pair, cross, each, gram, moment, turned};
 use super::slot::FeatureSlot;
@@ -41,6 +42,9 @@ pub struct Planar<const L: usize> {
     solution: [Pair<L>; 2],
     omega: Lane<L>,
     taken_out: Lane<L>,
+    /// Half the accelerations of their centres of mass, and how they turn, if nothing joins them to others.
+    fall: Pair<L>,
+    alone: AloneInPlane<L>,
 }
 
 impl<const L: usize> Planar<L> {
@@ -89,6 +93,8 @@ impl<const L: usize> Bodies<L> for Planar<L> {
             solution: [zeros; 2],
             omega: [0.0; L],
             taken_out: [0.0; L],
+            fall: zeros,
+            alone: AloneInPlane::empty(),
         }
     }
 
@@ -105,7 +111,9 @@ impl<const L: usize> Bodies<L> for Planar<L> {
         for c in 0..2 {
             self.weight[0][c][lane] = weight[c];
             self.weight[1][c][lane] = of_director[c];
+            self.fall[c][lane] = 0.5 * self.inverse_mass[lane] * weight[c];
         }
+        self.alone.set_torque(lane, of_director.map(|force| force / body.ibar[0]));
     }
 
     fn bodies(&self) -> Range<usize> {
@@ -345,6 +353,12 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     #[inline(always)]
     fn moment<S: Simd>(_: S, q: &[[Pair<L>; 2]], p: &[Pair<L>], n: usize) -> Lane<L> {
         moment(q, p, n)
+    }
+
+    #[inline(always)]
+    fn alone<S: Simd>(&mut self, _: S, q: &[[Pair<L>; 2]], n: usize) -> Option<[Pair<L>; 2]> {
+        let fall = if n == 0 { self.fall } else { [[0.0; L]; 2] };
+        Some([fall, self.alone.expand(q, n)])
     }
 
     #[inline(always)]

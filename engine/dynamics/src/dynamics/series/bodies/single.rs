@@ -1,10 +1,9 @@
 //! One body in space: what a bundle of one does, with the components of each vector side by side in a vector of the processor,
 //! and zero behind the third. What is seldom asked for is left to that bundle.
 
+use super::alone::Alone;
 use super::bundle::Bundle;
-use super::components::{
-    Components, ZERO, alone, combined, cross, directors, gram, moment, narrowed, packed, turned, widened,
-};
+use super::components::{Components, ZERO, combined, cross, gram, moment, narrowed, packed, turned, widened};
 use super::kernels::Bodies;
 use super::slot::FeatureSlot;
 use crate::dynamics::series::lanes::{
@@ -34,6 +33,8 @@ pub struct Single {
     solution: [Components; 4],
     omega: Components,
     taken_out: Components,
+    /// What it does if nothing joins it to others.
+    alone: Alone,
 }
 
 impl Single {
@@ -80,12 +81,14 @@ impl Bodies<1> for Single {
             solution: [ZERO; 4],
             omega: ZERO,
             taken_out: ZERO,
+            alone: Alone::empty(),
         }
     }
 
     fn set_body(&mut self, lane: usize, system: &System, body: &RigidBody) {
         self.plain.set_body(lane, system, body);
         self.inverse_mass = [body.free_inverse_mass(); 4];
+        self.alone = Alone::of(system, body);
         self.weight = self.plain.weight.map(|x| widened(&x));
         for c in 0..3 {
             self.minus_ibar[c] = [-body.ibar[c]; 4];
@@ -272,15 +275,8 @@ impl Bodies<1> for Single {
     }
 
     #[inline(always)]
-    fn alone<S: Simd>(
-        &self,
-        simd: S,
-        q: &[[Components; 4]],
-        _: &[[Components; 3]],
-        n: usize,
-        kappa: f64,
-    ) -> ([Components; 2], Components) {
-        alone(simd, q, [&self.minus_ibar, directors(&self.weight)], n, kappa)
+    fn alone<S: Simd>(&mut self, simd: S, q: &[[Components; 4]], n: usize) -> Option<[Components; 4]> {
+        Some(self.alone.expand(simd, q, n))
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Sums and differences of states and of their series, compiled for each set of vector instructions.
 
-use crate::dynamics::series::lanes::{largest, plus};
+use crate::dynamics::series::lanes::{difference_whole, largest, plus, plus_whole, raise_whole};
 use crate::dynamics::series::{Bodies, Series};
 use pulp::{Simd, WithSimd};
 use triad_linalg::{fma, larger};
@@ -100,7 +100,7 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Differ<'_, L, B> {
                 self.twin.solve_order(simd, k - 2);
                 power *= h;
             }
-            self.add(k, power);
+            self.add(simd, k, power);
             let last = power * larger(h * self.terms[k], self.terms[k.saturating_sub(1)]);
             let finished = last <= self.enough;
             if k == most || k >= fewest && finished {
@@ -120,34 +120,34 @@ impl<const L: usize, B: Bodies<L>> Differ<'_, L, B> {
         size.proven::<L, B>(self.arrived).after(self.h, self.length)
     }
 
-    /// Adds the term of order k, given h to the power of k − 1.
+    /// Adds the term of order k, given h to the power of k − 1: four numbers at a time, whatever they belong to.
     #[inline(always)]
-    fn add(&mut self, k: usize, power: f64) {
+    fn add<S: Simd>(&mut self, simd: S, k: usize, power: f64) {
         let stride = self.twin.stride;
         let by = if k == 0 { [1.0, 0.0] } else { [self.h * power, k as f64 * power] };
-        let mut term = 0.0;
-        for (b, arrived) in self.arrived.iter_mut().enumerate() {
+        let mut largest = [0.0; 4];
+        for (b, [value, rate]) in self.arrived.iter_mut().enumerate() {
             let at = b * stride + k;
-            let (here, there) = (B::lanes(&self.of[at]), B::lanes(&self.twin.q[at]));
-            let carried = B::lanes_mut(&mut self.carried[at]);
-            for ((out, here), there) in carried.iter_mut().zip(here).zip(there) {
-                for l in 0..L {
-                    out[l] = here[l] - there[l];
-                    if self.s < 1.0 {
-                        out[l] /= self.s;
-                    }
+            let (value, rate) = (B::fours_mut(value), B::fours_mut(rate));
+            let (here, there) = (B::fours(&self.of[at]), B::fours(&self.twin.q[at]));
+            let carried = B::fours_mut(&mut self.carried[at]);
+            for ((((out, here), there), value), rate) in
+                carried.iter_mut().zip(here).zip(there).zip(value).zip(rate)
+            {
+                let mut term = difference_whole(simd, here, there);
+                if self.s < 1.0 {
+                    term = term.map(|x| x / self.s);
                 }
-            }
-            term = larger(term, largest(carried));
-            for (sum, by) in arrived.iter_mut().zip(by) {
-                for (sum, c) in B::lanes_mut(sum).iter_mut().zip(&*carried) {
-                    for l in 0..L {
-                        sum[l] = if k == 0 { by * c[l] } else { fma(by, c[l], sum[l]) };
-                    }
+                raise_whole(simd, &mut largest, &term);
+                if k == 0 {
+                    (*value, *rate) = ([0.0; 4], [0.0; 4]);
                 }
+                *value = plus_whole(simd, &[by[0]; 4], &term, value);
+                *rate = plus_whole(simd, &[by[1]; 4], &term, rate);
+                *out = term;
             }
         }
-        self.terms[k] = term;
+        self.terms[k] = largest.into_iter().fold(0.0, larger);
     }
 }
 
