@@ -14,6 +14,7 @@ mod flow;
 mod idle;
 mod kinematics;
 mod modes;
+mod momenta;
 mod stage;
 
 pub use assembly::{Assembly, Placement, assemble, assemble_if};
@@ -196,8 +197,8 @@ impl AnalysisError {
                  nearer to where it comes to rest."
             }
             Self::NoSteadyMotion { .. } => {
-                "Give the start the velocities of that motion, drive at constant speed, and turn about an axis along the weight. \
-                 Modes about a position at rest are those about the equilibrium or the start."
+                "Drive at constant speed what loads drive or brake, turn about an axis along the weight, and leave out the weight \
+                 of what falls freely. Modes about a position at rest are those about the equilibrium or the start."
             }
             Self::NoModes => "Look whether stiffness and damping of the loads are of a sensible size.",
             Self::Free { .. } => "Add a driver for each degree of freedom, or run the scene forward in time.",

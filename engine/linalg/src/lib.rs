@@ -14,5 +14,5 @@ pub mod random;
 pub use arithmetic::{fma, larger, raise};
 pub use basis::orthonormal_basis;
 pub use block_cholesky::BlockCholesky;
-pub use null_space::{independent_rows, independent_rows_if, left_null_space};
+pub use null_space::{independent_rows, independent_rows_if, least_squares, left_null_space, null_and_rest};
 pub use sparse_lu::{Columns, SparseLu};

@@ -2,6 +2,9 @@
 
 use nalgebra::DMatrix;
 
+/// Part of an orthonormal set that rounding leaves of none.
+const ACROSS: f64 = 1e-8;
+
 /// Squared lengths closer than this are equal.
 const EQUAL: f64 = 1e-10;
 
@@ -86,6 +89,37 @@ pub fn left_null_space(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
         }
     }
     null.qr().q()
+}
+
+/// Orthonormal x with `matrix` x = 0, parts of it below `smallest` being none, and orthonormal ones across.
+pub fn null_and_rest(matrix: &DMatrix<f64>, smallest: f64) -> (DMatrix<f64>, DMatrix<f64>) {
+    let n = matrix.ncols();
+    let longest = matrix.column_iter().fold(0.0f64, |a, column| a.max(column.norm()));
+    let null = if longest <= smallest {
+        DMatrix::identity(n, n)
+    } else {
+        left_null_space(&matrix.transpose(), smallest / longest)
+    };
+    let rest = left_null_space(&null, ACROSS);
+    (null, rest)
+}
+
+/// The shortest x with `matrix` x = `right`, as nearly as can be, and the null space of `matrix`, as [`null_and_rest`] takes it. (The
+/// iterative singular value decomposition is wrong in the second digit where columns are parallel to rounding.)
+pub fn least_squares(
+    matrix: &DMatrix<f64>,
+    right: &DMatrix<f64>,
+    smallest: f64,
+) -> (DMatrix<f64>, DMatrix<f64>) {
+    let (null, rest) = null_and_rest(matrix, smallest);
+    let mut x = DMatrix::zeros(rest.ncols(), right.ncols());
+    if !rest.is_empty() {
+        let qr = (matrix * &rest).qr();
+        x = qr.q().tr_mul(right);
+        // R is regular: what is left of the columns is independent.
+        qr.r().solve_upper_triangular_mut(&mut x);
+    }
+    (rest * x, null)
 }
 
 #[cfg(test)]

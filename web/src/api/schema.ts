@@ -4362,7 +4362,7 @@ export interface components {
         };
         /** @description A motion in which all bodies keep their places in a frame that turns and slides uniformly. */
         SteadyMotion: {
-            /** @description Velocity of the frame at the world's origin, m/s. */
+            /** @description Velocity of the frame at the world's origin at the start, m/s. */
             sliding: [
                 number,
                 number,

@@ -161,13 +161,22 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
 /// Forces and moments below this are the rounding of a balance, N or N m: a part of the largest one that takes part in it. What is left on
 /// a body that springs alone carry is rounding itself, and nothing to compare with.
 pub(super) fn rounding(stage: &Stage) -> f64 {
+    ROUNDED * largest_part(stage)
+}
+
+/// The largest force that takes part in a balance, N, or its moment, N m.
+pub(super) fn largest_part(stage: &Stage) -> f64 {
     let Mechanism { system, state, .. } = &stage.mechanism;
     let length = system.length;
     let reach = state.bodies().iter().fold(length, |reach, at| reach.max(at.q.r.norm()));
     let weights = system.bodies.iter().map(|body| body.mass * system.model.gravity.norm());
     let loads = system.loads.iter().map(|load| load.largest_part(state, reach));
-    let inertial = (stage.forces() - stage.loads()).amax();
-    ROUNDED * length.max(1.0) * weights.chain(loads).fold(inertial, f64::max)
+    let turning = system.bodies.iter().zip(state.bodies()).enumerate().map(|(index, (body, at))| {
+        let [_, omega] = stage.flow.twist(index, &at.q);
+        body.principal.max() * omega.norm_squared()
+    });
+    let inertial = turning.fold((stage.forces() - stage.loads()).amax(), f64::max);
+    length.max(1.0) * weights.chain(loads).fold(inertial, f64::max)
 }
 
 /// The position of rest at which the stage is.

@@ -21,6 +21,8 @@ pub struct Flow {
     pub turning: Vector3<f64>,
     /// Velocity of the frame at the world's origin, m/s.
     pub sliding: Vector3<f64>,
+    /// Uniform velocity that carries the axis of turning along, m/s.
+    pub carried: Vector3<f64>,
     /// Spin of each body; none at rest.
     pub spins: Vec<Spin>,
 }
@@ -58,7 +60,8 @@ impl Flow {
         let axes = Matrix3::from_columns(&at.e);
         let inertia = axes * Matrix3::from_diagonal(&body.principal) * axes.transpose();
         let (turning, e) = (self.turning, at.e[axis]);
-        let acceleration = turning.cross(&(self.sliding + turning.cross(&at.r))) + turning.cross(&v) * 2.0;
+        let acceleration =
+            turning.cross(&(self.sliding - self.carried + turning.cross(&at.r))) + turning.cross(&v) * 2.0;
         // h = I ω changes with the attitude of the body in the frame, with the axis of its spin, and with the frame.
         let (omega, attitude) = (turning + e * rate + w, w + e * rate);
         let h = inertia * omega;
@@ -73,11 +76,11 @@ impl Flow {
         let Spin { axis, rate } = self.spins.get(body).copied().unwrap_or_default();
         let turn = Rotation3::from_scaled_axis(self.turning * time);
         let spin = Rotation3::from_scaled_axis(at.e[axis] * (rate * time));
-        // A point of the axis, and what slides along it.
-        let square = self.turning.norm_squared();
+        // A point of the axis, and how it moves.
+        let (square, sliding) = (self.turning.norm_squared(), self.sliding - self.carried);
         let (centre, along) = if square > 0.0 {
-            let along = self.turning * (self.turning.dot(&self.sliding) / square);
-            (self.turning.cross(&self.sliding) / square, along)
+            let along = self.turning * (self.turning.dot(&sliding) / square);
+            (self.turning.cross(&sliding) / square, along + self.carried)
         } else {
             (Vector3::zeros(), self.sliding)
         };

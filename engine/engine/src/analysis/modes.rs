@@ -11,10 +11,12 @@ use super::{AnalysisError, Stage, Wanted, equilibrium};
 use crate::scene::Scene;
 use inertia::Inertia;
 use nalgebra::{Complex, ComplexField, DMatrix, DVector};
-use pencil::{Eigen, Pencil, null_and_rest, solve};
+use pencil::{Eigen, Pencil, solve};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use steady::Unfelt;
 use triad_dynamics::state::BodyFrame;
+use triad_linalg::{least_squares, null_and_rest};
 
 /// Damping or asymmetry below this part of the stiffness is none.
 const NEGLIGIBLE: f64 = 1e-9;
@@ -37,7 +39,8 @@ pub enum ModesAbout {
     /// The start itself, at rest.
     Start,
     /// The steady motion near the start, drivers at their speed: all bodies keep their places in a frame that turns and slides
-    /// uniformly, and spin at most about an axis around which they are alike.
+    /// uniformly, and spin at most about an axis around which they are alike. What drivers leave free has the momenta of the
+    /// start.
     Steady,
 }
 
@@ -146,9 +149,13 @@ pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Mod
         ModesAbout::Start => None,
         ModesAbout::Steady => Some(steady::find(&mut stage)?),
     };
+    let (steady, unfelt) = steady.unzip();
     stage.rest();
-    let basis = stage.tangent()?;
+    let mut basis = stage.tangent()?;
     let freedoms = basis.ncols();
+    if let Some(unfelt) = &unfelt {
+        basis = unfelt.across(&stage, basis);
+    }
     if freedoms == 0 {
         notes.push("joints and drivers leave no freedom: nothing can vibrate".to_owned());
     }
@@ -161,13 +168,13 @@ pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Mod
              equations leave out"
         ));
     }
-    let small = SmallMotions::new(&mut stage, &basis);
+    let small = SmallMotions::new(&mut stage, &basis, unfelt.as_ref());
     let length = stage.mechanism.system.length;
     let mut modes: Vec<Mode> =
         small.eigen()?.iter().map(|eigen| mode(eigen.value, &small.moved(&eigen.vector), length)).collect();
+    let translations = unfelt.map_or_else(|| DMatrix::zeros(basis.nrows(), 0), |unfelt| unfelt.translations);
     modes.extend(
-        small
-            .drifts()
+        columns([&small.drifts(), &translations])
             .column_iter()
             .map(|motion| mode(Complex::new(0.0, 0.0), &motion.map(|x| Complex::new(x, 0.0)), length)),
     );
@@ -188,7 +195,7 @@ struct SmallMotions {
 }
 
 impl SmallMotions {
-    fn new(stage: &mut Stage, basis: &DMatrix<f64>) -> Self {
+    fn new(stage: &mut Stage, basis: &DMatrix<f64>, unfelt: Option<&Unfelt>) -> Self {
         let multipliers = stage.accelerate().multipliers.solver_rows().to_vec();
         stage.rest();
         let force = stage.forces().amax() / stage.mechanism.system.length;
@@ -211,7 +218,14 @@ impl SmallMotions {
         let follows =
             solve(stiffness.view((n, n), (h, h)).into_owned(), &stiffness.view((n, 0), (h, n)).into_owned());
         let motions = &moving - &held * &follows;
-        let stiffness = stiffness.view((0, 0), (n, n)) - stiffness.view((0, n), (n, h)) * &follows;
+        let mut stiffness = stiffness.view((0, 0), (n, n)) - stiffness.view((0, n), (n, h)) * &follows;
+        if let Some(unfelt) = unfelt {
+            // Differences would leave a little of their zeros, of which a drift would grow.
+            let along =
+                least_squares(&columns([&motions, &left_out]), &unfelt.drifts, 0.0).0.rows(0, n).into_owned();
+            let (_, along) = null_and_rest(&along.transpose(), CLEARLY * along.norm());
+            stiffness -= &stiffness * &along * along.transpose();
+        }
         let damping = stage.damping(&motions);
         // Which motions meet no stiffness is decided where all motions have the same length.
         let mut scaled = stiffness.clone();

@@ -1,6 +1,9 @@
 //! A mechanism held at one position, with its small motions.
 
+mod damping;
+
 use super::flow::Flow;
+use super::momenta::Momenta;
 use super::{AnalysisError, MAX_FREEDOMS, Wanted, idle};
 use crate::error::EngineError;
 use crate::scene::Scene;
@@ -34,6 +37,8 @@ pub struct Stage {
     pub time: f64,
     /// The steady motion in which it is held; rest, unless one is looked for.
     pub flow: Flow,
+    /// The momenta of which the steady motion follows at each position, while it is looked for.
+    pub momenta: Option<Momenta>,
     /// What was corrected on the way to a consistent start.
     pub notes: Vec<String>,
     /// Whether what is computed of it is still wanted.
@@ -63,19 +68,28 @@ impl Stage {
         mechanism.elimination.set_redundant(true);
         let q_dot = start.split_off(mechanism.system.coordinates);
         let geometry = Geometry::new(&mechanism.system);
-        let (flow, wanted) = (Flow::default(), Wanted::default());
-        Ok(Self { mechanism, geometry, q: start, q_dot, time: 0.0, flow, notes, wanted })
+        let (flow, momenta, wanted) = (Flow::default(), None, Wanted::default());
+        Ok(Self { mechanism, geometry, q: start, q_dot, time: 0.0, flow, momenta, notes, wanted })
     }
 
     /// Takes over the held position at rest, or in the steady motion.
     pub fn rest(&mut self) {
-        self.q_dot = self.velocities(&self.q);
+        let q = self.q.clone();
+        self.q_dot = self.velocities(&q);
         let y = [self.q.as_slice(), self.q_dot.as_slice()].concat();
         self.mechanism.set_state(self.time, &y);
     }
 
+    /// Places of the bodies at positions q.
+    pub fn places(&self, q: &[f64]) -> Vec<NaturalCoordinates> {
+        self.mechanism.system.bodies.iter().map(|body| body.layout.position(q)).collect()
+    }
+
     /// Velocities q̇ of the steady motion, or zero, at positions q.
-    pub fn velocities(&self, q: &[f64]) -> Vec<f64> {
+    pub fn velocities(&mut self, q: &[f64]) -> Vec<f64> {
+        if let Some(momenta) = &self.momenta {
+            self.flow = momenta.flow(&self.mechanism.system.bodies, &self.places(q));
+        }
         let mut q_dot = vec![0.0; q.len()];
         if !self.flow.is_rest() {
             for (index, body) in self.mechanism.system.bodies.iter().enumerate() {
@@ -160,27 +174,28 @@ impl Stage {
     /// The same with the forces of inertia of the steady motion.
     pub fn forces(&self) -> DVector<f64> {
         let mut out = self.loads();
-        if !self.flow.is_rest() {
-            self.for_inertial(
-                |_| [Vector3::zeros(); 2],
-                |index, [force, moment]| {
-                    let mut force_on = out.fixed_rows_mut::<3>(6 * index);
-                    force_on += force;
-                    let mut moment_on = out.fixed_rows_mut::<3>(6 * index + 3);
-                    moment_on += moment;
-                },
-            );
-        }
+        self.for_inertial(
+            |_| [Vector3::zeros(); 2],
+            |index, wrench| {
+                for (c, part) in wrench.iter().flat_map(|part| part.iter()).enumerate() {
+                    out[6 * index + c] += part;
+                }
+            },
+        );
         out
     }
 
-    /// Calls `take` with the force and moment of inertia on each body, whose velocities in the frame of the steady motion are given.
+    /// Calls `take` with the force and moment of inertia on each body, whose velocities in the frame of the steady motion are
+    /// given; at rest there are none.
     fn for_inertial(
         &self,
         velocities: impl Fn(usize) -> [Vector3<f64>; 2],
         mut take: impl FnMut(usize, [Vector3<f64>; 2]),
     ) {
         let Mechanism { system, state, .. } = &self.mechanism;
+        if self.flow.is_rest() {
+            return;
+        }
         for (index, (body, at)) in system.bodies.iter().zip(state.bodies()).enumerate() {
             take(index, self.flow.inertial(index, body, &at.q, velocities(index)));
         }
@@ -231,7 +246,8 @@ impl Stage {
         on.state.set_time(on.system, time);
         on.state.set_positions(on.system, on.q);
         project_positions(&mut on, &rules::ASSEMBLY_POSITIONS, length);
-        let q_dot = self.velocities(&self.q);
+        let q = self.q.clone();
+        let q_dot = self.velocities(&q);
         let Mechanism { system, state, .. } = &mut self.mechanism;
         state.commit_revolutions();
         state.set_velocities(system, &q_dot);
@@ -253,102 +269,35 @@ impl Stage {
 
     /// −∂(generalized force)/∂(motion) along a basis, with multipliers held: the stiffness matrix at rest.
     pub fn stiffness(&mut self, basis: &DMatrix<f64>, multipliers: &[f64]) -> DMatrix<f64> {
-        let length = self.mechanism.system.length;
         let mut out = DMatrix::zeros(basis.ncols(), basis.ncols());
         for k in 0..basis.ncols() {
-            let direction = basis.column(k).into_owned();
-            // Columns may have any length: the step is one of the motion.
-            let reach = (0..direction.len()).fold(0.0f64, |a, i| {
-                a.max(if i % 6 >= 3 { length * direction[i].abs() } else { direction[i].abs() })
-            });
-            let step = STEP * length / reach.max(f64::MIN_POSITIVE);
-            let mut at = |size: f64| {
-                let q = self.moved(&direction, size);
-                self.place(&q);
-                self.imbalance(multipliers)
-            };
-            let (near, far) = (at(step) - at(-step), at(2.0 * step) - at(-2.0 * step));
-            out.set_column(k, &basis.tr_mul(&((near * 8.0 - far) / (12.0 * step))));
+            let slope = self.slope(&basis.column(k).into_owned(), |stage| stage.imbalance(multipliers));
+            out.set_column(k, &basis.tr_mul(&slope));
         }
         let q = self.q.clone();
         self.place(&q);
         out
     }
 
-    /// −∂(generalized force)/∂(velocity) along a basis, at the state taken over last: Σ d g gᵀ over the loads, with d = −∂f/∂ẋ and g
-    /// the generalized force of a unit force along x, and the gyroscopic matrix of the steady motion.
-    pub fn damping(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut out = self.gyroscopic(basis);
-        for (damping, along) in self.dampers(basis) {
-            out.ger(damping, &along, &along, 1.0);
-        }
-        out
-    }
-
-    /// d of each damped load, and its g along a basis.
-    pub fn dampers(&self, basis: &DMatrix<f64>) -> Vec<(f64, DVector<f64>)> {
-        let mut out = Vec::new();
-        self.for_damped(|damping, unit| out.push((damping, basis.tr_mul(unit))));
-        out
-    }
-
-    /// What resists motions along a basis at any speed, as rows: of each damped load its unit force, of length one, and the
-    /// gyroscopic matrix relative to the largest sum of what bodies contribute to an entry, since they cancel where nothing
-    /// resists. What none of them feels goes on for ever, however strong the others are.
-    pub fn resistance(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut rows: Vec<RowDVector<f64>> = Vec::new();
-        self.for_damped(|_, unit| rows.push(basis.tr_mul(&(unit / unit.norm())).transpose()));
-        let wrenches = self.gyroscopic_wrenches(basis);
-        let largest = basis.abs().tr_mul(&wrenches.abs()).amax();
-        if largest > 0.0 {
-            rows.extend(basis.tr_mul(&wrenches).row_iter().map(|row| row / largest));
-        }
-        if rows.is_empty() { DMatrix::zeros(0, basis.ncols()) } else { DMatrix::from_rows(&rows) }
-    }
-
-    /// Calls `take` with d and the wrenches of a unit force of each damped load.
-    fn for_damped(&self, mut take: impl FnMut(f64, &DVector<f64>)) {
-        let Mechanism { system, state, .. } = &self.mechanism;
-        for load in &system.loads {
-            let mut unit = AppliedForces::none(system);
-            if let Some((_, damping)) = load.linearized(system, state, &mut unit)
-                && damping != 0.0
-            {
-                let unit = resultants(state, &unit);
-                if unit.norm() > 0.0 {
-                    take(damping, &unit);
-                }
-            }
-        }
-    }
-
-    /// −∂(forces of inertia of the steady motion)/∂(velocity) along a basis.
-    pub fn gyroscopic(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
-        basis.tr_mul(&self.gyroscopic_wrenches(basis))
-    }
-
-    /// The same as wrenches body by body, a column for each motion: they are quadratic, so that differences are exact.
-    fn gyroscopic_wrenches(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut out = DMatrix::zeros(basis.nrows(), basis.ncols());
-        if self.flow.is_rest() {
-            return out;
-        }
-        for k in 0..basis.ncols() {
-            let mut change = DVector::zeros(basis.nrows());
-            for sign in [1.0, -1.0] {
-                let part = |at: usize| Vector3::from_fn(|c, _| sign * basis[(at + c, k)]);
-                self.for_inertial(
-                    |body| [part(6 * body), part(6 * body + 3)],
-                    |body, wrench| {
-                        for (c, part) in wrench.iter().flat_map(|part| part.iter()).enumerate() {
-                            change[6 * body + c] -= 0.5 * sign * part;
-                        }
-                    },
-                );
-            }
-            out.set_column(k, &change);
-        }
-        out
+    /// Change of something by a small motion, a twist of each body of any length; the stage is left beside its position.
+    pub fn slope(
+        &mut self,
+        direction: &DVector<f64>,
+        of: impl Fn(&mut Self) -> DVector<f64>,
+    ) -> DVector<f64> {
+        let length = self.mechanism.system.length;
+        // The step is one of the motion.
+        let reach = (0..direction.len()).fold(0.0f64, |a, i| {
+            a.max(if i % 6 >= 3 { length * direction[i].abs() } else { direction[i].abs() })
+        });
+        let step = STEP * length / reach.max(f64::MIN_POSITIVE);
+        let mut at = |size: f64| {
+            let q = self.moved(direction, size);
+            self.place(&q);
+            of(self)
+        };
+        let (near, far) = (at(step) - at(-step), at(2.0 * step) - at(-2.0 * step));
+        (near * 8.0 - far) / (12.0 * step)
     }
 
     /// Bodies at the held position.

@@ -134,6 +134,8 @@ export const toldOfRuns: Record<string, string> = {
     "es wurde kein Gleichgewicht gefunden: Nach {steps} Schritten bleibt eine verallgemeinerte Kraft von {force} N, das meiste davon an Körper „{body}“",
   'there is no steady motion near the start: "{name}" does not let the bodies keep their places in one frame that turns and slides uniformly (a body may spin only about an axis around which its moments of inertia are alike)':
     "nahe dem Anfang gibt es keine stationäre Bewegung: „{name}“ lässt die Körper ihre Plätze in einem gleichförmig drehenden und gleitenden System nicht behalten (ein Körper darf sich nur um eine Achse drehen, um die seine Trägheitsmomente gleich sind)",
+  'there is no steady motion near the start: where joints and drivers leave the bodies free to move as a whole, loads drive or brake them: a generalized force of {force} N is left there, most of it on body "{body}"':
+    "nahe dem Anfang gibt es keine stationäre Bewegung: Wo Gelenke und Antriebe die Körper als Ganzes frei lassen, treiben oder bremsen sie Lasten: Es bleibt dort eine verallgemeinerte Kraft von {force} N, das meiste davon an Körper „{body}“",
   'body "{body}" is free to spin about its axis through {joints}, and at t = {time} s a moment of {moment} N m turns it there: how it spins is not a matter of geometry alone':
     "Körper „{body}“ dreht sich frei um seine Achse durch {joints}, und bei t = {time} s dreht ihn dort ein Moment von {moment} N m: Wie er sich dreht, ist keine Frage der Geometrie allein",
   'body "{body}" cannot be kept in place: there is no such body':
@@ -187,8 +189,8 @@ export const toldOfRuns: Record<string, string> = {
   "Look whether the mechanism is next to a singular position there, and change a length.":
     "Sieh nach, ob der Mechanismus dort bei einer singulären Lage ist, und ändere eine Länge.",
 
-  "Give the start the velocities of that motion, drive at constant speed, and turn about an axis along the weight. Modes about a position at rest are those about the equilibrium or the start.":
-    "Gib dem Anfang die Geschwindigkeiten dieser Bewegung, treib mit gleicher Geschwindigkeit an, und dreh um eine Achse längs der Schwerkraft. Eigenformen um eine Ruhelage sind die um das Gleichgewicht oder den Anfang.",
+  "Drive at constant speed what loads drive or brake, turn about an axis along the weight, and leave out the weight of what falls freely. Modes about a position at rest are those about the equilibrium or the start.":
+    "Treib mit gleicher Geschwindigkeit an, was Lasten antreiben oder bremsen, dreh um eine Achse längs der Schwerkraft, und lass die Schwerkraft weg, wenn etwas frei fällt. Eigenformen um eine Ruhelage sind die um das Gleichgewicht oder den Anfang.",
   "Look whether stiffness and damping of the loads are of a sensible size.":
     "Sieh nach, ob Steifigkeit und Dämpfung der Lasten eine sinnvolle Größe haben.",
   'Put a universal joint in place of a spherical one at one end, leave the body out by a joint of the kind "rod", or run the scene forward in time.':

@@ -8,8 +8,8 @@
 use nalgebra::{DMatrix, Matrix3, SymmetricEigen, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
+use triad_linalg::null_and_rest;
 
-use super::pencil::null_and_rest;
 use crate::analysis::{Stage, idle::moment};
 
 /// Displacement of centres of mass and of points at the radii of gyration, as a part of the displacement of the motion

@@ -196,19 +196,6 @@ impl Pencil {
     }
 }
 
-/// Orthonormal x with `matrix` x = 0, each row of it below `smallest`, and those across.
-pub fn null_and_rest(matrix: &DMatrix<f64>, smallest: f64) -> (DMatrix<f64>, DMatrix<f64>) {
-    let n = matrix.ncols();
-    let longest = matrix.column_iter().fold(0.0f64, |a, column| a.max(column.norm()));
-    let null = if longest <= smallest {
-        DMatrix::identity(n, n)
-    } else {
-        left_null_space(&matrix.transpose(), smallest / longest)
-    };
-    let rest = left_null_space(&null, BESIDE);
-    (null, rest)
-}
-
 /// The solution of a system that was chosen regular.
 pub fn solve(matrix: DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
     if right.is_empty() {

@@ -1,19 +1,19 @@
 //! The steady motion near the start, if there is one.
 
-use crate::analysis::flow::{Flow, Spin};
+use crate::analysis::momenta::{Fields, MISSED, Momenta, Solutions, energetic};
 use crate::analysis::{AnalysisError, Stage, equilibrium};
 use nalgebra::{DMatrix, DVector, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
 use triad_dynamics::constraints::violation;
-use triad_linalg::left_null_space;
+use triad_linalg::null_and_rest;
 
-/// Relative difference of principal moments below which a body is alike all around the third axis.
-const ALIKE: f64 = 1e-9;
-/// Part of the velocities by which rows may be missed.
-const MISSED: f64 = 1e-8;
 /// Part of the largest force by which forces may change in the frame of the motion.
 const CHANGED: f64 = 1e-6;
+/// Steps of Newton's method to a steady motion next to the start.
+const STEPS: usize = 10;
+/// Way, in lengths of the mechanism, up to which one is next to it.
+const NEAR: f64 = 0.01;
 /// Angle or, in lengths of the mechanism, way after which it is seen whether the motion is steady.
 const LATER: f64 = 0.7;
 
@@ -22,7 +22,7 @@ const LATER: f64 = 0.7;
 pub struct SteadyMotion {
     /// Angular velocity of the frame, rad/s.
     pub turning: [f64; 3],
-    /// Velocity of the frame at the world's origin, m/s.
+    /// Velocity of the frame at the world's origin at the start, m/s.
     pub sliding: [f64; 3],
     /// Bodies that spin in it about an axis around which they are alike, and how fast, rad/s.
     pub spins: Vec<BodySpin>,
@@ -37,9 +37,40 @@ pub struct BodySpin {
     pub rate: f64,
 }
 
+/// Motions of the whole that change nothing, known without linearizing: twists of each body as columns.
+pub struct Unfelt {
+    /// Translations that go on for ever, uniformly.
+    pub translations: DMatrix<f64>,
+    /// Other displacements from one steady motion to another with the same frame and spins.
+    pub drifts: DMatrix<f64>,
+}
+
+impl Unfelt {
+    /// The part of a basis of small motions that leaves the whole where it is: it has nothing to do with the translations.
+    pub fn across(&self, stage: &Stage, basis: DMatrix<f64>) -> DMatrix<f64> {
+        let (bodies, at) = (&stage.mechanism.system.bodies, stage.places(&stage.q));
+        let momentum =
+            energetic(bodies, &at, self.translations.clone()).tr_mul(&energetic(bodies, &at, basis.clone()));
+        basis * null_and_rest(&momentum, MISSED * momentum.norm()).0
+    }
+}
+
 /// Finds the steady motion near the start, and holds the stage in it.
-pub fn find(stage: &mut Stage) -> Result<SteadyMotion, AnalysisError> {
-    let flow = nearest(stage)?;
+pub fn find(stage: &mut Stage) -> Result<(SteadyMotion, Unfelt), AnalysisError> {
+    let symmetries = Symmetries::new(stage);
+    stage.momenta = Some(symmetries.momenta.clone());
+    fits(stage)?;
+    symmetries.keep_momenta(stage)?;
+    settle(stage)?;
+    equilibrium::find(stage).map_err(|error| match error {
+        AnalysisError::NoEquilibrium { residual, body, .. } => none(format!(
+            "in the frame that moves along, a generalized force of {residual:.3e} N is left, most of it on body \"{body}\""
+        )),
+        other => other,
+    })?;
+    let unfelt = symmetries.unfelt(stage);
+    stage.momenta = None;
+    let flow = &stage.flow;
     let names = stage.mechanism.system.model.bodies.iter().map(|body| body.name.clone());
     let told = SteadyMotion {
         turning: flow.turning.into(),
@@ -50,118 +81,146 @@ pub fn find(stage: &mut Stage) -> Result<SteadyMotion, AnalysisError> {
             .map(|(body, spin)| BodySpin { body, rate: spin.rate })
             .collect(),
     };
-    stage.flow = flow;
-    equilibrium::find(stage).map_err(|error| match error {
-        AnalysisError::NoEquilibrium { residual, body, .. } => none(format!(
-            "in the frame that moves along, a generalized force of {residual:.3e} N is left, most of it on body \"{body}\""
-        )),
-        other => other,
-    })?;
     fits(stage)?;
     lasts(stage)?;
     stage.rest();
-    Ok(told)
+    Ok((told, unfelt))
 }
 
 fn none(reason: String) -> AnalysisError {
     AnalysisError::NoSteadyMotion { reason }
 }
 
-/// The steady motion that meets the joints and drivers at the start, and among those the one nearest to the velocities there.
-fn nearest(stage: &mut Stage) -> Result<Flow, AnalysisError> {
-    let length = stage.mechanism.system.length;
-    let start = stage.twists();
-    let (fields, axes) = fields(stage);
-    let wanted = stage.rows_times(&DMatrix::from_column_slice(start.len(), 1, start.as_slice()));
-    let wanted = wanted.column(0).into_owned();
-    let rows = stage.rows_times(&fields);
-    let scaled = |mut x: DMatrix<f64>| {
-        x.row_iter_mut().enumerate().filter(|(row, _)| row % 6 >= 3).for_each(|(_, mut row)| row *= length);
-        x
-    };
-    let (fields, start) =
-        (scaled(fields), scaled(DMatrix::from_column_slice(start.len(), 1, start.as_slice())));
-    let start = start.column(0).into_owned();
-    let distance = |p: &DVector<f64>| (&fields * p - &start).norm();
-    let size = start.norm().max(f64::MIN_POSITIVE);
-    let all = closest(&rows, &wanted, &fields, &start);
-    // A frame that need not turn does not: then frequencies are those that somebody at rest sees.
-    let turning = 3;
-    let without = closest(
-        &rows.columns_range(turning..).into_owned(),
-        &wanted,
-        &fields.columns_range(turning..).into_owned(),
-        &start,
-    );
-    let mut still = DVector::zeros(all.len());
-    still.rows_range_mut(turning..).copy_from(&without);
-    let missed = |p: &DVector<f64>| (&rows * p - &wanted).norm();
-    let enough = missed(&still) <= missed(&all) + MISSED * rows.norm() * still.norm()
-        && distance(&still) <= distance(&all) + MISSED * size;
-    let p = if enough { still } else { all };
-    let part = |k: usize| Vector3::new(p[k], p[k + 1], p[k + 2]);
-    let rounded = |x: f64, reach: f64| if x.abs() * reach <= MISSED * size { 0.0 } else { x };
-    let mut flow = Flow {
-        turning: part(0).map(|x| rounded(x, length)),
-        sliding: part(3).map(|x| rounded(x, 1.0)),
-        spins: vec![Spin::default(); stage.mechanism.system.bodies.len()],
-    };
-    for (k, &(body, axis)) in axes.iter().enumerate() {
-        flow.spins[body] = Spin { axis, rate: rounded(p[6 + k], length) };
-    }
-    stage.flow = flow.clone();
-    fits(stage)?;
-    Ok(flow)
+/// The motions of the whole that joints, drivers and loads do not feel.
+struct Symmetries {
+    /// Those along which the loads are carried along.
+    alike: DMatrix<f64>,
+    /// Translations among them that nothing resists.
+    translations: DMatrix<f64>,
+    /// The steady motions that follow of the velocities at the start.
+    momenta: Momenta,
 }
 
-/// Twists of the steady motions at the held position as columns: three turns, three translations, then a spin of each body that
-/// is alike around an axis, with body and director.
-fn fields(stage: &Stage) -> (DMatrix<f64>, Vec<(usize, usize)>) {
-    let mechanism = &stage.mechanism;
-    let bodies = || mechanism.system.bodies.iter().zip(mechanism.state.bodies()).enumerate();
-    let axes: Vec<(usize, usize)> = bodies()
-        .filter_map(|(index, (body, _))| {
-            let j = body.principal;
-            let same = |a: usize, b: usize| (j[a] - j[b]).abs() <= ALIKE * j.max();
-            let axis = (0..3).find(|&k| same((k + 1) % 3, (k + 2) % 3) && !same(k, (k + 1) % 3));
-            axis.map(|axis| (index, axis))
-        })
-        .collect();
-    let mut out = DMatrix::zeros(6 * mechanism.system.bodies.len(), 6 + axes.len());
-    for (index, (_, at)) in bodies() {
-        for k in 0..3 {
-            let unit = Vector3::ith(k, 1.0);
-            out.fixed_view_mut::<3, 1>(6 * index, k).copy_from(&unit.cross(&at.q.r));
-            out[(6 * index + 3 + k, k)] = 1.0;
-            out[(6 * index + k, 3 + k)] = 1.0;
+impl Symmetries {
+    fn new(stage: &mut Stage) -> Self {
+        let fields = Fields::new(&stage.mechanism.system.bodies, stage.mechanism.system.length);
+        let at = stage.places(&stage.q);
+        let (twists, start) = (fields.twists(&at), stage.twists());
+        let column = |vector: &DVector<f64>| DMatrix::from_column_slice(vector.len(), 1, vector.as_slice());
+        let rows = stage.rows_times(&twists);
+        let wanted = stage.rows_times(&column(&start)).column(0).into_owned();
+        let mut allowed = Solutions::all(fields.count());
+        allowed.narrow(&rows, &wanted, MISSED * rows.norm());
+        let (changes, smallest) = changes_of_loads(stage, &fields, &twists);
+        allowed.without(&changes, smallest);
+        let alike = allowed.free.clone();
+        // What moves freely as a whole goes on uniformly, and its axis of turning with it.
+        let mut whole = Solutions { one: DVector::zeros(fields.count()), free: alike.clone() };
+        whole.without(&DMatrix::identity(fields.count(), fields.count()).remove_rows(3, 3), MISSED);
+        whole.without(&stage.resistance(&twists), MISSED);
+        let translations = whole.free.clone();
+        let bodies = &stage.mechanism.system.bodies;
+        let moving = energetic(bodies, &at, twists);
+        let mut velocities = energetic(bodies, &at, column(&start)).column(0).into_owned();
+        let size = moving.norm() * velocities.norm();
+        whole.narrow(&moving, &velocities, MISSED * moving.norm());
+        velocities -= &moving * &whole.one;
+        let momenta = moving.tr_mul(&velocities);
+        allowed.without(&turned_momenta(&alike, &momenta), MISSED * size);
+        let momenta = Momenta {
+            along: allowed.free.tr_mul(&momenta),
+            carried: whole.one.fixed_rows::<3>(3).into_owned(),
+            least: MISSED * fields.size(&start),
+            fields,
+            allowed,
+        };
+        Self { alike, translations, momenta }
+    }
+
+    /// Whether the loads leave the momenta along the motions of the whole as they are.
+    fn keep_momenta(&self, stage: &mut Stage) -> Result<(), AnalysisError> {
+        stage.rest();
+        let twists = self.momenta.fields.twists(&stage.places(&stage.q)) * &self.momenta.allowed.free;
+        let force = stage.forces();
+        let along = twists.tr_mul(&force);
+        if along.amax() <= (CHANGED * force.amax()).max(equilibrium::rounding(stage)) {
+            return Ok(());
         }
+        Err(none(format!(
+            "where joints and drivers leave the bodies free to move as a whole, loads drive or brake them: a generalized force \
+             of {:.3e} N is left there, most of it on body \"{}\"",
+            along.amax(),
+            stage.foremost(&force)
+        )))
     }
-    for (column, &(body, axis)) in axes.iter().enumerate() {
-        let e = mechanism.state.bodies()[body].q.e[axis];
-        out.fixed_view_mut::<3, 1>(6 * body + 3, 6 + column).copy_from(&e);
+
+    fn unfelt(&self, stage: &Stage) -> Unfelt {
+        let (bodies, at) = (&stage.mechanism.system.bodies, stage.places(&stage.q));
+        let fields = &self.momenta.fields;
+        let twists = fields.twists(&at);
+        let moving = energetic(bodies, &at, twists.clone());
+        let momentum = (&moving * &self.translations).tr_mul(&moving);
+        let p = self.momenta.velocities(bodies, &at);
+        let mut drifts = Solutions { one: DVector::zeros(p.len()), free: self.alike.clone() };
+        drifts.without(&momentum, MISSED * momentum.norm());
+        drifts.without(&fields.bracket(&p), MISSED * p.norm());
+        Unfelt { translations: &twists * &self.translations, drifts: twists * drifts.free }
     }
-    (out, axes)
 }
 
-/// p with `rows` p = `wanted` as nearly as can be, and among those the one with `fields` p nearest to `start`.
-fn closest(
-    rows: &DMatrix<f64>,
-    wanted: &DVector<f64>,
-    fields: &DMatrix<f64>,
-    start: &DVector<f64>,
-) -> DVector<f64> {
-    let least = |matrix: &DMatrix<f64>, right: &DVector<f64>| {
-        if matrix.is_empty() {
-            return DVector::zeros(matrix.ncols());
+/// Takes a start that all but is a steady motion to that one, be it stable or not: the search that follows goes downhill.
+fn settle(stage: &mut Stage) -> Result<(), AnalysisError> {
+    let (from, turns, length) = (stage.q.clone(), stage.turns(), stage.mechanism.system.length);
+    let mut way = 0.0;
+    for _ in 0..STEPS {
+        stage.wanted.check()?;
+        let basis = stage.tangent()?;
+        stage.rest();
+        let multipliers = stage.accelerate().multipliers.solver_rows().to_vec();
+        let stiffness = stage.stiffness(&basis, &multipliers);
+        let along = basis.tr_mul(&stage.forces());
+        let mut step = Solutions::all(along.len());
+        step.narrow(&stiffness, &along, MISSED * stiffness.norm());
+        let step = step.one;
+        way += step.norm();
+        if way > NEAR * length || stage.assemble(stage.moved(&(&basis * &step), 1.0)) > MISSED * length {
+            stage.put_back(&from, &turns);
+            break;
         }
-        let svd = matrix.clone().svd(true, true);
-        let limit = MISSED * svd.singular_values.max();
-        svd.solve(right, limit).unwrap_or_else(|_| DVector::zeros(matrix.ncols()))
-    };
-    let p = least(rows, wanted);
-    let unseen = left_null_space(&rows.transpose(), MISSED);
-    let further = least(&(fields * &unseen), &(start - fields * &p));
-    p + unseen * further
+        if step.norm() <= MISSED * length {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// How loads change when all is carried along each field, less how they would if they were carried along; and what of that is
+/// none.
+fn changes_of_loads(stage: &mut Stage, fields: &Fields, twists: &DMatrix<f64>) -> (DMatrix<f64>, f64) {
+    let q = stage.q.clone();
+    stage.place(&q);
+    let loads = stage.loads();
+    let mut out = twists.clone();
+    for k in 0..twists.ncols() {
+        let change = stage.slope(&twists.column(k).into_owned(), |stage| stage.loads());
+        out.set_column(k, &(change - fields.turned(k, &loads)));
+    }
+    stage.place(&q);
+    (out, CHANGED * equilibrium::largest_part(stage) / stage.mechanism.system.length)
+}
+
+/// Rows that are zero for motions along which the momenta stay in place: ⟨μ, [ξ, η]⟩ of each η in `alike`.
+fn turned_momenta(alike: &DMatrix<f64>, momenta: &DVector<f64>) -> DMatrix<f64> {
+    let part = |p: &DVector<f64>, first: usize| p.fixed_rows::<3>(first).into_owned();
+    let (angular, linear) = (part(momenta, 0), part(momenta, 3));
+    let mut out = DMatrix::zeros(alike.ncols(), alike.nrows());
+    for (mut row, column) in out.row_iter_mut().zip(alike.column_iter()) {
+        let (turning, sliding) = (part(&column.into_owned(), 0), part(&column.into_owned(), 3));
+        let along_turns = turning.cross(&angular) + sliding.cross(&linear);
+        row.columns_mut(0, 3).copy_from(&along_turns.transpose());
+        row.columns_mut(3, 3).copy_from(&turning.cross(&linear).transpose());
+    }
+    out
 }
 
 /// Whether joints and drivers allow the steady motion at the held position.
