@@ -19,6 +19,7 @@ mod outputs;
 mod parameters;
 mod pure;
 mod scene_words;
+mod small_motions;
 mod snapshots;
 mod solution;
 mod steady;
