@@ -1,8 +1,8 @@
 // Every body as numbers: what the 3-D view shows, for eyes and ears that do without it.
 
 import type { Vec3 } from "../api/types";
-import { h } from "../core/dom";
-import { fixed } from "../core/format";
+import { h, setText } from "../core/dom";
+import { fixed, seconds } from "../core/format";
 import { t } from "../core/texts";
 import { norm } from "../mechanics/vec";
 import type { Session } from "../session/session";
@@ -38,8 +38,12 @@ export function bodiesTab(session: Session): Panel {
     column("z"),
   ]);
 
+  const when = h("p", { class: "when" });
+
   const refresh = (): void => {
-    const bodies = session.shown?.bodies ?? [];
+    const state = session.lastRecorded;
+    const bodies = state?.bodies ?? [];
+    if (state) setText(when, t("At {time}.", { time: seconds(state.time) }));
     places.update(
       bodies.map((body) => ({
         head: body.name,
@@ -58,5 +62,5 @@ export function bodiesTab(session: Session): Panel {
       ),
     );
   };
-  return { root: h("div", { class: "stack" }, places.root, turns.root, axes.root), refresh };
+  return { root: h("div", { class: "stack" }, when, places.root, turns.root, axes.root), refresh };
 }

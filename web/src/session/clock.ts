@@ -42,6 +42,14 @@ export class Clock extends Emitter {
     return this.past.at(this.cursor) ?? this.latest;
   }
 
+  /** The latest moment that is recorded and not after the time that is shown, nothing between two of them: for numbers. */
+  get lastRecorded(): SessionState | undefined {
+    const state = this.shown;
+    if (this.cursor === null || !state) return state;
+    const time = this.track.before(this.cursor);
+    return time !== undefined && time > state.time ? (this.track.at(time, state) ?? state) : state;
+  }
+
   /** True while the page looks at a time before the newest one. */
   get reviewing(): boolean {
     return this.cursor !== null;

@@ -9,7 +9,7 @@ export interface LiveQuery {
   refresh: () => void;
 }
 
-/** `ask` is given the run's address and the time, if it is not the present. */
+/** `ask` is given the run's address and the time, if it is not the present; the answer is of the latest state that is kept until then. */
 export function liveQuery<T>(
   session: Session,
   ask: (run: string, at: number | undefined) => Promise<T>,
@@ -21,14 +21,14 @@ export function liveQuery<T>(
   let seen = "";
 
   const keyOf = (state: SessionState): string =>
-    `${state.id}@${state.time}@${state.changes}@${session.reviewing}${query()}`;
+    `${state.id}@${session.reviewing ? session.time : state.time}@${state.changes}@${session.reviewing}${query()}`;
   const refresh = (): void => {
     const state = session.shown;
     if (!state || busy) return;
     const key = keyOf(state);
     if (key === seen) return;
     busy = true;
-    ask(state.links.self, session.reviewing ? state.time : undefined)
+    ask(state.links.self, session.reviewing ? session.time : undefined)
       .then((value) => {
         seen = key;
         show(value, state);

@@ -102,17 +102,28 @@ export class Track {
     return block;
   }
 
+  /** The time of the latest frame not after `time`, s. */
+  before(time: number): number | undefined {
+    const found = this.frames[this.indexAt(time)]?.time;
+    return found !== undefined && found <= time ? found : undefined;
+  }
+
+  private indexAt(time: number): number {
+    let [low, high] = [0, Math.max(0, this.frames.length - 1)];
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if ((this.frames[middle]?.time ?? Infinity) <= time) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+
   /** `state` with bodies and forces as they were at `time`; `undefined` where that is not recorded. */
   at(time: number, state: SessionState): SessionState | undefined {
     const { frames } = this;
     const [first, last] = [frames[0], frames.at(-1)];
     if (!first || !last || time < first.time || time > last.time) return undefined;
-    let [low, high] = [0, frames.length - 1];
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if ((frames[middle]?.time ?? Infinity) <= time) low = middle;
-      else high = middle - 1;
-    }
+    const low = this.indexAt(time);
     const a = frames[low] ?? first;
     const b = frames[low + 1] ?? a;
     if (a.bodies !== state.bodies.length || b.bodies !== a.bodies || b.joints !== a.joints) return undefined;

@@ -1,7 +1,7 @@
 // The reactions of every joint by the chosen convention, the joints that share redundant rows, one body cut free.
 
 import { api } from "../../api/client";
-import type { JointMultipliers, Reactions, SessionState } from "../../api/types";
+import type { JointMultipliers, Reactions } from "../../api/types";
 import { h, setText } from "../../core/dom";
 import { seconds } from "../../core/format";
 import { bind } from "../../core/keys";
@@ -35,8 +35,6 @@ export class ReactionsTab implements Panel {
   private readonly source: LiveQuery;
 
   private answer: JointReactions | undefined;
-  /** The state that the answer belongs to. */
-  private of: SessionState | undefined;
   private paintedSelection: string | null = null;
 
   constructor(private readonly session: Session) {
@@ -72,9 +70,8 @@ export class ReactionsTab implements Panel {
     this.source = liveQuery(
       session,
       (run, at) => this.ask(run, at),
-      (value, state) => {
+      (value) => {
         this.answer = value;
-        this.of = state;
         this.paint();
       },
       (error) => this.list.replaceChildren(problemNotice(error)),
@@ -154,7 +151,7 @@ export class ReactionsTab implements Panel {
       const selected = session.joint === entry.joint;
       return card(entry, selected, () => session.select(selected ? null : entry.joint));
     });
-    setText(this.when, t("At {time}.", { time: seconds(this.of?.time ?? state.time) }));
+    setText(this.when, t("At {time}.", { time: seconds(this.answer?.reactions.time ?? state.time) }));
     list.replaceChildren(...cards);
     if (cards.length === 0)
       list.replaceChildren(
