@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { type ModeMotion, type Placed, swung, turned } from "../../mechanics/pose";
 import { norm } from "../../mechanics/vec";
 import { columnsOf, difference, resample } from "./compare";
-import { plotSvg, ticks } from "./svg-file";
+import { plotSvg, tickLabels, ticks } from "./svg-file";
 
 describe("two runs", () => {
   it("are compared at the times of the present one, where both exist", () => {
@@ -29,6 +29,25 @@ describe("two runs", () => {
     expect(bands([0.1, 0.1, 0.1, 0.1])?.match(/[MLZ]/g)?.join("")).toBe("MLLLLLLLZ");
     expect(bands([0.1, 0.1, null, 0.1])?.match(/[MLZ]/g)?.join("")).toBe("MLLLZMLZ");
     expect(bands([])).toBeUndefined();
+  });
+  it("have axes whose labels are the values there", () => {
+    const told = (text: string): number => Number(text.replace("−", "-").replace("e−", "e-"));
+    for (const values of [
+      [0, 5e-10, 1e-9, 1.5e-9, 2e-9],
+      [-2.5e-4, 0, 2.5e-4, 5e-4],
+      [150_000, 200_000, 250_000],
+      [1.000_002, 1.000_004, 1.000_006],
+      [9.806_649_75, 9.806_65],
+      [0.1, 0.2, 0.30000000000000004],
+      [1e-12, 1e-9, 1e-6, 1],
+    ]) {
+      const labels = tickLabels(values);
+      for (const [k, value] of values.entries())
+        expect(Math.abs(told(labels[k] ?? "") - value)).toBeLessThanOrEqual(1e-9 * Math.abs(value));
+      expect(Math.max(...labels.map((label) => label.length))).toBeLessThan(11);
+    }
+    expect(tickLabels([0.1, 0.2, 0.30000000000000004, null])).toEqual(["0.1", "0.2", "0.3", ""]);
+    expect(tickLabels([-1e5, 0, 1e5])).toEqual(["−1e5", "0", "1e5"]);
   });
   it("have round ticks", () => {
     expect(ticks(0, 10)).toEqual([0, 2, 4, 6, 8, 10]);

@@ -4,7 +4,7 @@ import uPlot from "uplot";
 import { t } from "../../core/texts";
 import "uplot/dist/uPlot.min.css";
 import { lonely } from "./samples";
-import { JOIN_DASH, type Line } from "./svg-file";
+import { JOIN_DASH, type Line, tickLabels } from "./svg-file";
 
 export interface Plot {
   /** A change of this key builds the plot anew. */
@@ -92,7 +92,7 @@ function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, live:
           label: unit,
           labelFont: font,
           labelSize: unit ? 18 : 0,
-          values: (_, ticks) => ticks.map((tick) => (tick === null ? "" : short(tick))),
+          values: (_, ticks) => tickLabels(ticks),
         },
       ],
       series: [

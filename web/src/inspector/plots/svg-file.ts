@@ -86,14 +86,16 @@ export function mesh(
   [below, beside]: [string, string],
   colors: Colors,
 ): string[] {
+  const [columns, rows] = [ticks(...across), ticks(...up)];
+  const [under, left] = [tickLabels(columns), tickLabels(rows)];
   return [
-    ...ticks(...across).flatMap((value) => [
+    ...columns.flatMap((value, k) => [
       `<path d="M${r(x(value))} ${at.top}V${at.bottom}" stroke="${colors.line}"/>`,
-      text(`x="${r(x(value))}" y="${at.bottom + 20}" text-anchor="middle"`, short(value), colors),
+      text(`x="${r(x(value))}" y="${at.bottom + 20}" text-anchor="middle"`, under[k] ?? "", colors),
     ]),
-    ...ticks(...up).flatMap((value) => [
+    ...rows.flatMap((value, k) => [
       `<path d="M${at.left} ${r(y(value))}H${at.right}" stroke="${colors.line}"/>`,
-      text(`x="${at.left - 10}" y="${r(y(value) + 5)}" text-anchor="end"`, short(value), colors),
+      text(`x="${at.left - 10}" y="${r(y(value) + 5)}" text-anchor="end"`, left[k] ?? "", colors),
     ]),
     text(`x="${(at.left + at.right) / 2}" y="${at.bottom + 40}" text-anchor="middle"`, below, colors),
     text(`x="${at.left - 10}" y="${at.top - 10}" text-anchor="end"`, beside, colors),
@@ -186,6 +188,23 @@ export function ticks(low: number, high: number): number[] {
   return found;
 }
 
+/** The labels of an axis: with as many digits as tell one value from the next. */
+export function tickLabels(values: readonly (number | null)[]): string[] {
+  const known = values.filter((value) => value !== null).sort((a, b) => a - b);
+  const steps = known.slice(1).map((value, k) => value - (known[k] ?? value));
+  const largest = Math.max(...known.map(Math.abs), 0);
+  const step = Math.min(...steps.filter((one) => one > 0), largest || 1);
+  const plain = largest >= 1e-3 && largest < 1e5;
+  const order = (value: number): number => Math.floor(Math.log10(Math.abs(value)) + 1e-9);
+  return values.map((value) => {
+    if (value === null) return "";
+    if (Math.abs(value) < 1e-6 * step) return "0";
+    // One digit more than the step has: it may be a quarter of a power of ten.
+    const digits = Math.min(15, Math.max(1, order(value) - order(step) + 2));
+    const rounded = Number(value.toPrecision(digits));
+    return (plain ? String(rounded) : rounded.toExponential()).replaceAll("-", "−").replace("e+", "e");
+  });
+}
+
 const r = (value: number): string => value.toFixed(1);
-const short = (value: number): string => String(Number(value.toPrecision(6))).replace("-", "−");
 const escapeXml = (text: string): string => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
