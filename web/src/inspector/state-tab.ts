@@ -65,6 +65,11 @@ const FIGURES: { label: () => string; about: () => string; of: (state: SessionSt
     of: (state) => within(state, "force", "N"),
   },
   {
+    label: () => t("Energy right to"),
+    about: () => t("Estimated error of the energy so far"),
+    of: (state) => within(state, "energy", "J"),
+  },
+  {
     label: () => t("Violation |Φ|"),
     about: () => t("How far the positions are from meeting the constraints"),
     of: (state) => sci(state.position_violation),

@@ -79,7 +79,10 @@ export const quantities = (chart: Chart): Curve[] => [...new Set([...(chart.acro
 /** All plots of a scene, by one of its states. */
 export function charts(state: SessionState): Chart[] {
   return [
-    { label: t("Energy drift"), curves: [{ label: "ΔE", unit: "J", of: (s) => s.energy_drift }] },
+    {
+      label: t("Energy drift"),
+      curves: [{ label: "ΔE", unit: "J", of: (s) => s.energy_drift, error: "energy" }],
+    },
     ...errors(state),
     {
       label: t("Constraint violation"),

@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import type { Scene } from "../../api/types";
-import { chosen } from "./run-table";
+import { chosen, offeredOf } from "./run-table";
 
 it("keeps the single elements that a scene chooses", () => {
   const scene = {
@@ -11,4 +11,11 @@ it("keeps the single elements that a scene chooses", () => {
   const of = scene as unknown as Scene;
   expect(chosen(["reactions", "joints"], of)).toEqual(["reactions:pin", "reactions:rail", "joints"]);
   expect(chosen(["joints"], { ...of, simulation: {} })).toEqual(["joints"]);
+});
+
+it("offers errors of a run that estimates them", () => {
+  const of = (simulation: object): string[] =>
+    offeredOf({ simulation } as unknown as Scene).map(([kind]) => kind);
+  expect(of({})).toContain("errors");
+  expect(of({ error_estimate: false })).toEqual(of({}).filter((kind) => kind !== "errors"));
 });

@@ -21,9 +21,10 @@ export const OUTPUTS: [Output, () => string][] = [
   ["energy", () => t("Energy")],
   ["balance", () => t("Balance of energy")],
   ["violations", () => t("Violations of the constraints")],
+  ["errors", () => t("Estimated errors")],
 ];
 /** What a table holds that nobody has chosen. */
-const USUAL: Output[] = ["bodies", "reactions", "energy", "violations"];
+const USUAL: Output[] = ["bodies", "reactions", "energy", "violations", "errors"];
 
 /** The outputs of a request: what is checked, and what the scene chooses of single elements of the same kind. */
 export function chosen(checked: Output[], scene: Scene): Output[] {
@@ -34,12 +35,17 @@ export function chosen(checked: Output[], scene: Scene): Output[] {
   });
 }
 
+/** What may be chosen of a scene: one that estimates no errors has none. */
+export const offeredOf = (scene: Scene): typeof OUTPUTS =>
+  OUTPUTS.filter(([kind]) => kind !== "errors" || scene.simulation?.error_estimate !== false);
+
 /** Asks which numbers of the whole run are wanted, and saves them as CSV. */
 export function tableDialog(session: Session): void {
   const scene = session.view?.scene as Scene | undefined;
   if (!scene) return;
   const before = (scene.simulation?.outputs ?? USUAL).map((output) => output.split(":")[0]);
-  const boxes = OUTPUTS.map(([kind]) =>
+  const offered = offeredOf(scene);
+  const boxes = offered.map(([kind]) =>
     h("input", { type: "checkbox", value: kind, checked: before.includes(kind) }),
   );
   const every = h("input", {
@@ -63,7 +69,7 @@ export function tableDialog(session: Session): void {
       "fieldset",
       { class: "stack" },
       h("legend", null, t("Columns")),
-      ...OUTPUTS.map(([, label], k) =>
+      ...offered.map(([, label], k) =>
         h("label", { class: "switch" }, boxes[k] ?? "", h("span", null, label())),
       ),
     ),

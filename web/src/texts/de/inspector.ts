@@ -225,6 +225,7 @@ export const inspector = {
   Energy: "Energie",
   "Balance of energy": "Energiebilanz",
   "Violations of the constraints": "Verletzungen der Zwangsbedingungen",
+  "Estimated errors": "Geschätzte Fehler",
   "Save as CSV": "Als CSV speichern",
   "The scene with the numbers that it has now is run from its start to its end.":
     "Die Szene wird mit den Zahlen, die sie jetzt hat, von Anfang bis Ende gerechnet.",
@@ -311,6 +312,8 @@ export const inspector = {
   "Forces right to": "Kräfte genau auf",
   "Estimated error of the forces of joints and drivers":
     "Geschätzter Fehler der Kräfte von Gelenken und Antrieben",
+  "Energy right to": "Energie genau auf",
+  "Estimated error of the energy so far": "Geschätzter Fehler der Energie bis hierher",
   "Violation |Φ|": "Verletzung |Φ|",
   "How far the positions are from meeting the constraints":
     "Wie weit die Lagen davon entfernt sind, die Zwangsbedingungen zu erfüllen",
