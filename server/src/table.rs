@@ -2,7 +2,21 @@
 
 use std::io::{self, Write};
 
+use axum::http::StatusCode;
 use triad_engine::run::{Column, Outputs, Simulation, append_row};
+use triad_engine::scene::{OutputKind, Settings};
+use triad_lab::csv::quoted;
+
+use crate::problem::Problem;
+
+/// Refuses to write errors that are not estimated; `hint` says what lets them be.
+pub fn with_errors(settings: &Settings, hint: &str) -> Result<(), Problem> {
+    if settings.error_estimate || settings.outputs.iter().all(|output| output.kind != OutputKind::Errors) {
+        return Ok(());
+    }
+    let detail = "the outputs hold errors, but the run carries no estimate of them along";
+    Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "no-errors", detail, hint))
+}
 
 /// The time, then what was chosen.
 pub fn all_columns(outputs: &Outputs) -> impl Iterator<Item = Column> {
@@ -52,24 +66,5 @@ impl<W: Write> TextTable<W> {
     pub fn finish(mut self) -> io::Result<W> {
         self.out.flush()?;
         Ok(self.out)
-    }
-}
-
-/// A field, in quotation marks if it needs them.
-fn quoted(field: &str) -> String {
-    if field.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", field.replace('"', "\"\""))
-    } else {
-        field.to_owned()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_cannot_break_a_row() {
-        assert_eq!(quoted("a,\"b\""), "\"a,\"\"b\"\"\"");
     }
 }

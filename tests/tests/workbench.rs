@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use std::io::Write;
 use std::net::TcpStream;
 use std::time::Instant;
+use triad_engine::catalogue;
 use triad_tests::program::{HANG, Server, run, run_json};
 use triad_tests::reference::distance;
 
@@ -303,4 +304,35 @@ fn a_sweep_tells_the_errors_of_what_it_tells() {
     // None are told that are not known.
     let bare = String::from_utf8(run(&[&words[..], &["--no-estimate"]].concat()).stdout).unwrap();
     assert!(!bare.contains("  error "), "{bare}");
+    let failed = run(&["sweep", "simple-pendulum", "--vary", "/bodies/0/mass=-2:-1:2"]);
+    let failed = String::from_utf8(failed.stdout).unwrap();
+    assert!(failed.contains("0 of 2 runs, 2 failed") && !failed.contains("  error "), "{failed}");
+}
+
+/// Names are an author's: one with a comma once moved all columns behind it.
+#[test]
+fn a_table_of_a_sweep_has_as_many_names_as_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let mut scene = serde_json::to_value(catalogue::scene("free-body").unwrap()).unwrap();
+    scene["bodies"][0]["name"] = "a, \"b\"".into();
+    std::fs::write(file("a.json"), scene.to_string()).unwrap();
+    run(&[
+        "sweep",
+        &file("a.json"),
+        "--vary",
+        "/bodies/0/mass=1:2:2",
+        "--until",
+        "0.1",
+        "--outputs",
+        "bodies",
+        "--out",
+        &file("a.csv"),
+    ]);
+    let table = std::fs::read_to_string(file("a.csv")).unwrap();
+    let (head, rows) = table.split_once('\n').unwrap();
+    assert!(head.contains("\"a, \"\"b\"\".rx [m]\","), "{head}");
+    let names = head.split("\"a, \"\"b\"\".").count() - 1 + head.matches("_error [").count();
+    let numbers = rows.lines().next().unwrap().split(',').count();
+    assert_eq!(names + "run mass time evaluations doubts stopped".split(' ').count(), numbers, "{head}");
 }

@@ -23,6 +23,8 @@ const MARGIN: f64 = 36.0;
 const MAX_PICTURES: usize = 150;
 /// Points of all pictures together: about 12 bytes each, so that a film of a large mechanism stays below a megabyte.
 const MAX_POINTS: usize = 60_000;
+/// Times of pictures that differ by more than this part of the film from equally spaced ones are told.
+const UNEVEN: f64 = 0.01;
 /// Shortest and longest time that a film takes, s.
 const PLAYS: [f64; 2] = [1.0, 20.0];
 /// Colours of bodies, that stay apart for colour-blind eyes too (Okabe and Ito).
@@ -79,7 +81,11 @@ impl Film {
         let view = View::around(all, self.y_is_up, SIZE, MARGIN);
         let [begin, end] =
             [self.frames.first(), self.frames.last()].map(|frame| frame.map_or(0.0, |f| f.time));
-        let clock = Clock { plays: (end - begin).clamp(PLAYS[0], PLAYS[1]), moving: shown.len() > 1 };
+        let clock = Clock {
+            plays: (end - begin).clamp(PLAYS[0], PLAYS[1]),
+            moving: shown.len() > 1,
+            times: key_times(&shown),
+        };
         let title = escaped(&self.title);
         let [width, height] = SIZE;
         let mut out = format!(
@@ -108,7 +114,22 @@ impl Film {
         if count <= most {
             return self.frames.iter().collect();
         }
-        (0..most).map(|k| &self.frames[k * (count - 1) / (most - 1)]).collect()
+        // The nearest ones.
+        (0..most).map(|k| &self.frames[(k * (count - 1) + (most - 1) / 2) / (most - 1)]).collect()
+    }
+
+    /// Pictures that the film has, and the largest turn of a body from one to the next, rad: between them its points move along
+    /// straight lines.
+    pub fn coarseness(&self) -> (usize, f64) {
+        let shown = self.shown();
+        let turns = shown.windows(2).flat_map(|pair| {
+            let seconds = pair[1].time - pair[0].time;
+            let axes = |body: &BodyFrame| [body.u, body.v, body.w];
+            pair[0].bodies.iter().zip(&pair[1].bodies).map(move |(a, b)| {
+                turn([axes(a), axes(b)], [a.angular_velocity, b.angular_velocity], seconds)
+            })
+        });
+        (shown.len(), turns.fold(0.0, f64::max))
     }
 
     /// Where everything that is drawn is in a frame.
@@ -147,25 +168,46 @@ impl Film {
     }
 }
 
+/// By how much a body turns from one moment to another, rad: what its axes tell, and no less than what its angular velocities tell,
+/// which know of whole turns.
+pub fn turn([a, b]: [[[f64; 3]; 3]; 2], rates: [[f64; 3]; 2], seconds: f64) -> f64 {
+    let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|m| a[m] * b[m]).sum::<f64>();
+    let along: f64 = (0..3).map(|k| dot(a[k], b[k])).sum();
+    let rate = 0.5 * rates.iter().map(|rate| dot(*rate, *rate).sqrt()).sum::<f64>();
+    libm::acos((0.5 * (along - 1.0)).clamp(-1.0, 1.0)).max(rate * seconds)
+}
+
+/// When pictures are shown, as parts of the film, if they are not equally far apart: the last interval of a run may be shorter.
+fn key_times(shown: &[&Frame]) -> Option<String> {
+    let [first, .., last] = shown else { return None };
+    let parts: Vec<f64> =
+        shown.iter().map(|frame| (frame.time - first.time) / (last.time - first.time)).collect();
+    let even = |(k, part): (usize, &f64)| (part - k as f64 / (parts.len() - 1) as f64).abs() <= UNEVEN;
+    let uneven = !parts.iter().enumerate().all(even);
+    uneven.then(|| parts.iter().map(|part| format!("{part:.4}")).collect::<Vec<_>>().join(";"))
+}
+
 /// Colours for both kinds of page.
 const STYLE: &str = "<style>.paper{fill:#fff}.ink{fill:#1d2733}.trace{stroke:#8a97a5;stroke-width:1.2}\
                      .ground{fill:#c9d1d9;stroke:#66727f}.pin{stroke:#1d2733}.bar{fill:#8a97a5}\
                      @media(prefers-color-scheme:dark){.paper{fill:#10161d}.ink{fill:#dbe3ea}.trace{stroke:#6b7885}\
                      .ground{fill:#3a4550;stroke:#93a0ac}.pin{stroke:#eef3f7}}</style>\n";
 
-/// How long a film plays, s, and whether it moves at all.
+/// How long a film plays, s, whether it moves at all, and when its pictures are shown.
 struct Clock {
     plays: f64,
     moving: bool,
+    times: Option<String>,
 }
 
 impl Clock {
-    /// What an attribute takes one after the other.
-    fn animate(&self, attribute: &str, values: &[String], out: &mut String) {
+    /// What an attribute takes one after the other, at equal distances or at the times of the pictures.
+    fn animate(&self, attribute: &str, values: &[String], times: Option<&str>, out: &mut String) {
         if self.moving && values.windows(2).any(|pair| pair[0] != pair[1]) {
+            let times = times.map_or_else(String::new, |times| format!(" keyTimes=\"{times}\""));
             let _ = write!(
                 out,
-                "<animate attributeName=\"{attribute}\" dur=\"{:.2}s\" repeatCount=\"indefinite\" values=\"{}\"/>",
+                "<animate attributeName=\"{attribute}\" dur=\"{:.2}s\" repeatCount=\"indefinite\"{times} values=\"{}\"/>",
                 self.plays,
                 values.join(";")
             );
@@ -193,7 +235,7 @@ impl Clock {
             "<rect class=\"bar\" x=\"{from}\" y=\"{}\" height=\"3\" rx=\"1.5\" width=\"0\">",
             y - 1.5
         );
-        self.animate("width", &["0".to_owned(), format!("{long}")], out);
+        self.animate("width", &["0".to_owned(), format!("{long}")], None, out);
         out.push_str("</rect>\n");
     }
 }
@@ -254,6 +296,25 @@ mod tests {
             bars.iter().all(|bar| (bar - bars[0]).abs() < 1e-6 * bars[0]),
             "its length does not change: {bars:?}"
         );
+    }
+
+    const AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+    #[test]
+    fn pictures_are_shown_at_their_times_and_a_film_knows_how_coarse_it_is() {
+        let scene = catalogue::scene("simple-pendulum").unwrap();
+        let mut run = Simulation::new(&scene).unwrap();
+        let mut film = Film::new(&scene, run.model());
+        for time in [0.0, 0.5, 1.0, 1.1] {
+            run.advance_to(time).unwrap();
+            film.push(run.frame());
+        }
+        assert!(film.svg(true).contains("keyTimes=\"0.0000;0.4545;0.9091;1.0000\""));
+        let (pictures, turned) = film.coarseness();
+        assert!(pictures == 4 && turned > 1.0 && turned < 2.5, "{turned}");
+        let even = self::film("simple-pendulum", 151);
+        assert!(turn([AXES; 2], [[0.0, 0.0, 60.0]; 2], 0.1) == 6.0, "nearly a whole turn is no small one");
+        assert!(!even.svg(true).contains("keyTimes") && even.coarseness().1 < 0.1);
     }
 
     #[test]

@@ -1,5 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+pub mod csv;
+
 pub mod verify;
 
 pub mod stress;

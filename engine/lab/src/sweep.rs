@@ -18,6 +18,8 @@ use triad_scene::WrittenScene;
 
 /// Steps between two looks at whether the sweep is to end.
 const PIECE: u64 = 256;
+/// Most threads: so many that starting them takes the machine's memory help nobody.
+const MOST_THREADS: usize = 1024;
 
 /// One run of a sweep.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,7 +93,10 @@ impl Watch for Unwatched {}
 pub fn sweep(plan: &SweepPlan, threads: usize, watch: &impl Watch) -> Result<Sweep, SweepError> {
     let count = plan.count()?;
     let outputs = Outputs::new(&Simulation::new(&plan.scene)?);
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    if threads > MOST_THREADS {
+        return Err(SweepError::Threads { threads, reason: format!("there may be {MOST_THREADS}") });
+    }
+    let pool = ThreadPoolBuilder::new().num_threads(threads.min(count)).build();
     let pool = pool.map_err(|error| SweepError::Threads { threads, reason: error.to_string() })?;
     let shared = SharedParts { plan, outputs: &outputs, watch };
     let runs = pool.install(|| {

@@ -6,7 +6,7 @@
 use serde_json::json;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use triad_engine::run::{Outputs, Simulation};
-use triad_lab::sweep::{Sweep, SweepPlan, Unwatched, Values, Variation, Watch, sweep};
+use triad_lab::sweep::{Sweep, SweepPlan, Unwatched, Values, Variation, Watch, svg, sweep};
 use triad_scene::{Scene, catalogue};
 
 fn pendulum() -> Scene {
@@ -139,7 +139,7 @@ fn what_was_done_before_it_is_cancelled_is_kept() {
 #[test]
 fn a_picture_has_a_mark_for_each_run() {
     let found: Sweep = sweep(&both(), 0, &Unwatched).unwrap();
-    let picture = triad_lab::sweep::svg(&found, 1);
+    let picture = svg(&found, 1);
     assert_eq!(picture.matches("<circle").count(), 36);
     assert!(picture.contains("pin.angle_rate, rad/s") && !picture.contains("NaN"), "{picture}");
 }
@@ -152,4 +152,57 @@ fn a_plan_whose_runs_would_not_differ_is_refused() {
     let undrawn = plan(&[("/bodies/0/mass", mass())], 5).count().unwrap_err();
     assert!(undrawn.to_string().contains("5 samples of each point would be the same run"), "{undrawn}");
     assert_eq!(plan(&[("/bodies/0/mass", mass())], 1).count(), Ok(3));
+}
+
+/// The labels of the vertical axis of a picture, from below.
+fn labels(picture: &str) -> Vec<String> {
+    let texts = picture.lines().filter(|line| line.contains("text-anchor=\"end\""));
+    texts
+        .map(|line| line.split("currentColor\">").nth(1).unwrap().split('<').next().unwrap().to_owned())
+        .collect()
+}
+
+/// Values that differ by rounding alone, or lie far from zero, once took all memory; small ones were all labelled 0.
+#[test]
+fn a_picture_is_drawn_of_any_values_and_its_labels_are_the_values_there() {
+    let found =
+        sweep(&plan(&[("/gravity/1", Values::Grid { from: -9.0, to: -1.0, count: 2 })], 1), 1, &Unwatched);
+    let of = |values: [f64; 2]| {
+        let mut found = found.clone().unwrap();
+        for (run, value) in found.runs.iter_mut().zip(values) {
+            run.result.as_mut().unwrap().outputs[0] = value;
+        }
+        svg(&found, 0)
+    };
+    for values in [
+        [1.0, 1.0 + f64::EPSILON],
+        [1e17, 1e17],
+        [-3e25, 3e25],
+        [0.25, 0.25],
+        [0.0, 0.0],
+        [3e-14, 9e-13],
+        [2e-7, 5e-6],
+    ] {
+        let picture = of(values);
+        let labels = labels(&picture);
+        assert!((4..=14).contains(&labels.len()), "{values:?}: {labels:?}");
+        let numbers: Vec<f64> = labels.iter().map(|label| label.parse().unwrap()).collect();
+        assert!(numbers.windows(2).all(|pair| pair[0] < pair[1]), "{values:?}: {labels:?}");
+        // Between the first and the last line a mark stands where its value belongs.
+        let (low, high) = (numbers[0], numbers[numbers.len() - 1]);
+        let marks = picture
+            .lines()
+            .filter_map(|line| line.split("cy=\"").nth(1)?.split('"').next()?.parse::<f64>().ok());
+        let marks: Vec<f64> = marks.collect();
+        for (mark, value) in marks.iter().zip(values) {
+            let part = (value - low) / (high - low);
+            assert!((354.0 - part * 320.0 - mark).abs() < 0.06, "{values:?}: {mark}, {labels:?}");
+        }
+    }
+}
+
+#[test]
+fn the_columns_are_known_before_anything_runs() {
+    let plan = both();
+    assert_eq!(plan.columns().unwrap(), sweep(&plan, 1, &Unwatched).unwrap().columns);
 }

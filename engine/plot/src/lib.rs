@@ -7,6 +7,10 @@ pub const COLOURS: [&str; 7] = ["#0a6e5c", "#b4491c", "#4657b8", "#8a6d00", "#a0
 /// Dashes of lines; they repeat with another period than the colours.
 pub const DASHES: [&str; 3] = ["none", "7 3", "2 3"];
 
+/// Least span of a linear axis beside its largest value, and least values that are told from zero.
+const LEAST_SPAN: f64 = 1e-9;
+const LEAST_VALUE: f64 = 1e-300;
+
 /// What an axis spans, and the labels of its lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
@@ -50,7 +54,8 @@ impl Axis {
         Self { decades, linear: false, reversed: false, ticks }
     }
 
-    /// A linear axis that holds all finite values, with lines at round numbers.
+    /// A linear axis that holds all finite values, with lines at round numbers. Values that are equal but for rounding are drawn as
+    /// equal: labels of a few digits could not tell them apart.
     ///
     /// ```
     /// use triad_plot::Axis;
@@ -58,28 +63,36 @@ impl Axis {
     /// let axis = Axis::linear([0.0, 9.0, 3.0].into_iter());
     /// assert_eq!(axis.decades, (0.0, 9.0));
     /// assert_eq!(axis.ticks[1], (1.0, "1".to_owned()));
+    ///
+    /// let small = Axis::linear([1e-16, 9e-15].into_iter());
+    /// assert_eq!(small.ticks[1], (1e-15, "1e-15".to_owned()));
     /// ```
     pub fn linear(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = values
             .filter(|x| x.is_finite())
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let largest = low.abs().max(high.abs());
         let (low, high) = match high - low {
-            span if span > 0.0 => (low, high),
-            _ if low.is_finite() => (low - 0.5, low + 0.5),
-            _ => (0.0, 1.0),
+            span if span > (LEAST_SPAN * largest).max(LEAST_VALUE) => (low, high),
+            _ if !low.is_finite() => (0.0, 1.0),
+            _ if largest > LEAST_VALUE => (low - 0.5 * largest, high + 0.5 * largest),
+            _ => (-0.5, 0.5),
         };
         // Five to ten lines at 1, 2 or 5 times a power of ten.
         let rough = (high - low) / 5.0;
-        let power = libm::pow(10.0, libm::floor(libm::log10(rough)));
-        let step =
-            [5.0, 2.0, 1.0].map(|k| k * power).into_iter().find(|step| *step <= rough).unwrap_or(power);
+        let exponent = libm::floor(libm::log10(rough));
+        let power = libm::pow(10.0, exponent);
+        let times = [5.0, 2.0, 1.0].into_iter().find(|times| times * power <= rough).unwrap_or(1.0);
+        let step = times * power;
         let (first, last) = ((low / step).floor(), (high / step).ceil());
+        let plain = exponent > -6.0 && largest < 1e7;
         let mut ticks = Vec::new();
         let mut at = first;
         while at <= last {
-            // Rounded: a multiple of 0.1 is not to be read as 0.30000000000000004.
-            let value = libm::round(at * step / power * 10.0) / 10.0 * power;
-            ticks.push((value, format!("{}", libm::round(value * 1e12) / 1e12)));
+            // Read from its digits: a multiple of 0.1 is not to be 0.30000000000000004.
+            let value = format!("{}e{exponent}", at * times).parse().unwrap_or(at * step);
+            ticks
+                .push((value, if plain || value == 0.0 { format!("{value}") } else { format!("{value:e}") }));
             at += 1.0;
         }
         Self { decades: (first * step, last * step), linear: true, reversed: false, ticks }

@@ -18,6 +18,7 @@ use triad_engine::scene::Scene;
 use crate::problem::Problem;
 use crate::work::still;
 use triad_engine::analysis::Wanted;
+use triad_lab::film::turn;
 use triad_session::picture::{Sample, SceneDescription, block, describe, frame_size, sample};
 
 /// Frames by second of watching: as smooth as a page that draws evenly between them needs.
@@ -100,6 +101,11 @@ impl Film {
         }
     }
 
+    /// Whether there are forces to tell.
+    pub fn tells_forces(&self) -> bool {
+        !self.description.joints.is_empty()
+    }
+
     /// Records the simulation as it stands.
     pub fn take(&mut self, simulation: &Simulation) {
         let sample = sample(simulation);
@@ -122,7 +128,12 @@ impl Film {
     }
 
     /// The motion: every frame, or as many at equal distances as fit.
-    pub fn develop(mut self) -> Motion {
+    pub fn develop(self) -> Motion {
+        self.developed().0
+    }
+
+    /// The same, and how coarse it is: its frames, and the largest turn of a body from one to the next, rad.
+    pub fn developed(mut self) -> (Motion, (usize, f64)) {
         self.samples.extend(self.last.take());
         let description = &self.description;
         let (bodies, all) = (description.bodies.len(), description.joints.len());
@@ -142,7 +153,16 @@ impl Film {
             found.map_or_else(|| "ground".to_owned(), |body| body.name.clone())
         };
         let told = description.joints.iter().take(joints);
-        Motion {
+        let turns =
+            self.samples.windows(2).flat_map(|pair| {
+                let seconds = pair[1].time - pair[0].time;
+                pair[0].poses.iter().zip(&pair[1].poses).map(move |(a, b)| {
+                    turn([a.axes, b.axes], [a.angular_velocity, b.angular_velocity], seconds)
+                })
+            });
+        let turned = turns.fold(0.0, f64::max);
+        let coarseness = (self.samples.len(), turned);
+        let motion = Motion {
             title: description.title.clone(),
             until,
             speed: until / watched(until),
@@ -159,7 +179,8 @@ impl Film {
             longest: scale.longest,
             track: STANDARD.encode(block(&self.samples, joints)),
             scene: self.scene,
-        }
+        };
+        (motion, coarseness)
     }
 }
 

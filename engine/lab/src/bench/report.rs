@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use crate::csv::quoted;
+
 use triad_scene::IntegratorKind;
 
 use super::measure::Measured;
@@ -94,7 +96,7 @@ pub fn csv(runs: &[Measured]) -> String {
         let _ = writeln!(
             out,
             "{},{},{},{},{:e},{},{:.9},{:.9},{:.3},{},{},{},{},{},{}",
-            run.scene,
+            quoted(&run.scene),
             run.method.integrator,
             run.method.constraint_method,
             run.method.coordinates,

@@ -139,7 +139,7 @@ fn path(
     }
     let pictures: Vec<String> = frames.iter().map(|frame| picture(lines, frame, view)).collect();
     let _ = write!(out, "<path {look} d=\"{}\">", pictures.first().map_or("", String::as_str));
-    clock.animate("d", &pictures, out);
+    clock.animate("d", &pictures, clock.times.as_deref(), out);
     out.push_str("</path>\n");
 }
 

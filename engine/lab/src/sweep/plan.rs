@@ -1,8 +1,9 @@
 //! What is varied, and how.
 
 use triad_engine::EngineError;
+use triad_engine::run::{Column, Outputs, Simulation};
 use triad_linalg::random::Random;
-use triad_scene::{Scene, SceneError, WrittenScene};
+use triad_scene::{OutputKind, Scene, SceneError, WrittenScene};
 
 /// Runs that a sweep may have.
 const MAX_RUNS: usize = 10_000_000;
@@ -131,6 +132,17 @@ impl SweepPlan {
         Self { scene, varied: Vec::new(), samples: 1, seed: 1 }
     }
 
+    /// The same, with estimated errors beside the outputs that the scene chooses, if it estimates any: no number without its error,
+    /// which takes one part in a hundred of what a run costs.
+    pub fn with_errors(mut scene: Scene) -> Self {
+        let settings = &mut scene.simulation;
+        if settings.error_estimate && settings.outputs.iter().all(|output| output.kind != OutputKind::Errors)
+        {
+            settings.outputs.push(OutputKind::Errors.into());
+        }
+        Self::new(scene)
+    }
+
     /// How many runs there are.
     ///
     /// # Errors
@@ -164,6 +176,15 @@ impl SweepPlan {
         runs.filter(|runs| (1..=MAX_RUNS).contains(runs)).ok_or_else(|| SweepError::Count {
             runs: runs.map_or_else(|| "too many".to_owned(), |runs| runs.to_string()),
         })
+    }
+
+    /// What is told of each run: the outputs that the scene chooses.
+    ///
+    /// # Errors
+    ///
+    /// [`SweepError::Engine`]: the scene cannot be run.
+    pub fn columns(&self) -> Result<Vec<Column>, SweepError> {
+        Ok(Outputs::new(&Simulation::new(&self.scene)?).columns().to_vec())
     }
 
     /// The varied numbers of run `index`.

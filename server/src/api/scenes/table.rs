@@ -20,7 +20,7 @@ use crate::api::extract::Json;
 use crate::app::App;
 use crate::problem::Problem;
 use crate::session;
-use crate::table::TextTable;
+use crate::table::{TextTable, with_errors};
 use crate::work::still;
 
 /// Numbers that a table over HTTP may have: some 60 MB of text.
@@ -66,6 +66,10 @@ async fn table(
         settings.duration = asked.until.unwrap_or(settings.duration);
         if !asked.outputs.is_empty() {
             settings.outputs = asked.outputs;
+            with_errors(
+                settings,
+                "leave \"error_estimate\": false out of the scene, or errors out of the outputs",
+            )?;
         }
         written(&scene, app.limits.command_time, wanted)
     };

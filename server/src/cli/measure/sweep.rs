@@ -9,7 +9,8 @@ use clap::Args;
 use serde_json::{Value, json};
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
-use triad_engine::scene::{IntegratorKind, Output, OutputKind, Scene};
+use triad_engine::scene::{IntegratorKind, Output, Scene};
+use triad_lab::csv::quoted;
 use triad_lab::sweep::{
     Reached, Sweep, SweepError, SweepPlan, SweepRun, Values, Variation, Watch, svg, sweep,
 };
@@ -17,11 +18,12 @@ use triad_lab::sweep::{
 use crate::cli::choice;
 use crate::cli::clock::Clock;
 use crate::cli::interrupt::Interrupt;
-use crate::cli::output::write;
-use crate::cli::scene::run::{as_asked, with_errors};
+use crate::cli::output::{make_room, write};
+use crate::cli::scene::run::{LEAVE_OUT, as_asked};
 use crate::cli::terminal::{Outcome, TimeBar, counted, print_json, print_line, progress};
 use crate::problem::Problem;
 use crate::scenes;
+use crate::table::with_errors;
 
 /// Columns that are summed up on the terminal; the table has all of them.
 const SHOWN: usize = 12;
@@ -112,13 +114,16 @@ pub(in crate::cli) fn run(options: &Options, json: bool) -> Result<Outcome, Prob
     let plan = plan(options)?;
     let count = plan.count()?;
     let replaced = replaced(options, &plan.scene)?;
+    let drawn = drawn(options, &plan)?;
+    for file in [&options.out, &options.svg].into_iter().flatten() {
+        make_room(file)?;
+    }
     clock.lap("read");
     let bar = progress(&plan.scene.name, count as f64, json);
     let watcher = Watcher { interrupt: Interrupt::listen(), done: AtomicUsize::new(0), bar };
     let found = sweep(&plan, options.threads, &watcher)?;
     drop(watcher);
     clock.lap("run");
-    let drawn = drawn(options, &found)?;
     if let Some(path) = &options.out {
         write(path, table(&found))?;
     }
@@ -160,14 +165,10 @@ fn plan(options: &Options) -> Result<SweepPlan, Problem> {
     settings.error_estimate &= !options.no_estimate;
     if !options.outputs.is_empty() {
         settings.outputs.clone_from(&options.outputs);
-        with_errors(settings)?;
-    }
-    // No number without its error: of all that a run costs, they take one part in a hundred.
-    if settings.error_estimate && settings.outputs.iter().all(|output| output.kind != OutputKind::Errors) {
-        settings.outputs.push(OutputKind::Errors.into());
+        with_errors(settings, LEAVE_OUT)?;
     }
     let varied = options.vary.iter().map(|text| variation(&scene, text)).collect::<Result<_, _>>()?;
-    Ok(SweepPlan { varied, samples: options.samples, seed: options.seed, ..SweepPlan::new(scene) })
+    Ok(SweepPlan { varied, samples: options.samples, seed: options.seed, ..SweepPlan::with_errors(scene) })
 }
 
 /// Refuses to run by another integrator than the one that the command line asks for; tells of one that the scene asks for. A scene
@@ -210,11 +211,12 @@ fn variation(scene: &Scene, text: &str) -> Result<Variation, Problem> {
     Ok(Variation::new(scene, name, values).map_err(EngineError::from)?)
 }
 
-/// The column that is drawn.
-fn drawn(options: &Options, found: &Sweep) -> Result<usize, Problem> {
+/// The column that is drawn: asked before anything runs, which may take hours.
+fn drawn(options: &Options, plan: &SweepPlan) -> Result<usize, Problem> {
     let Some(name) = &options.draw else { return Ok(0) };
-    found.columns.iter().position(|column| column.name == *name).ok_or_else(|| {
-        let names = found.columns.iter().map(|column| column.name.as_str());
+    let columns = plan.columns()?;
+    columns.iter().position(|column| column.name == *name).ok_or_else(|| {
+        let names = columns.iter().map(|column| column.name.as_str());
         Problem::new(
             StatusCode::UNPROCESSABLE_ENTITY,
             "unknown-column",
@@ -246,11 +248,11 @@ fn told(run: &SweepRun) -> Value {
 fn table(found: &Sweep) -> String {
     let mut out = String::from("run");
     for name in &found.varied {
-        let _ = write!(out, ",{name}");
+        let _ = write!(out, ",{}", quoted(name));
     }
     out.push_str(",time");
     for column in &found.columns {
-        let _ = write!(out, ",{} [{}]", column.name, column.unit);
+        let _ = write!(out, ",{}", quoted(&format!("{} [{}]", column.name, column.unit)));
     }
     out.push_str(",evaluations,doubts,stopped\n");
     let mut digits = zmij::Buffer::new();
@@ -295,7 +297,9 @@ fn print(scene: &Scene, found: &Sweep, left: usize) {
     if let Some(line) = errors(found) {
         print_line(&line);
     }
-    print_columns(found, &reached);
+    if !reached.is_empty() {
+        print_columns(found, &reached);
+    }
     for run in found.runs.iter().filter(|run| run.result.is_err()).take(TOLD) {
         if let Err(error) = &run.result {
             print_line(&format!("  run {} with {:?}: {error}", run.index, run.values));
@@ -311,6 +315,11 @@ fn errors(found: &Sweep) -> Option<String> {
         Some(reached.filter_map(|end| end.outputs.get(index).copied()).collect::<Vec<f64>>())
     };
     let positions = of("position_error")?;
+    let unknown = positions.iter().filter(|error| error.is_nan()).count();
+    if unknown == positions.len() {
+        return (unknown > 0)
+            .then(|| format!("  error                  unknown of {}", counted(unknown, "run")));
+    }
     let greatest = |errors: &[f64]| errors.iter().copied().fold(0.0, f64::max);
     let mut line =
         format!("  error                  positions right to about {:.0e} m", greatest(&positions));
@@ -325,7 +334,6 @@ fn errors(found: &Sweep) -> Option<String> {
         }
     }
     line.push_str(": the greatest of all runs");
-    let unknown = positions.iter().filter(|error| error.is_nan()).count();
     if unknown > 0 {
         let _ = write!(line, "; unknown of {}", counted(unknown, "run"));
     }

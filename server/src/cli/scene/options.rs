@@ -62,7 +62,8 @@ pub(in crate::cli) struct Run {
     /// Draw the mechanism as an SVG that moves by itself.
     #[arg(long, value_name = "FILE.svg")]
     pub(super) svg: Option<PathBuf>,
-    /// Write a page that plays the run by itself, without a server and without a network; at most 300 kB.
+    /// Write a page that plays the run by itself, without a server and without a network: some 300 kB, more for
+    /// hundreds of bodies.
     #[arg(long, value_name = "FILE.html")]
     pub(super) html: Option<PathBuf>,
     /// Show the run in a native rerun viewer that listens at this address.

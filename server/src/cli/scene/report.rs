@@ -20,6 +20,8 @@ pub(super) struct Found<'a> {
     pub stopped: Option<&'a Problem>,
     /// What a second solution says.
     pub verified: Option<&'a Verification>,
+    /// What its pictures do not show, in sentences.
+    pub pictured: &'a [String],
     /// What it took.
     pub clock: &'a Clock,
 }
@@ -29,7 +31,7 @@ pub(super) fn report(
     scene: &Scene,
     simulation: &Simulation,
     options: &Run,
-    &Found { stopped, verified, clock }: &Found,
+    &Found { stopped, verified, pictured, clock }: &Found,
     json: bool,
 ) {
     let mut summary = simulation.summary();
@@ -38,6 +40,7 @@ pub(super) fn report(
     let mut notes = simulation.notes().to_vec();
     notes.extend(options.source.notes(scene, summary.integrator == IntegratorKind::Taylor));
     notes.extend(options.idle());
+    notes.extend_from_slice(pictured);
     let left_out = options.explain.then(|| simulation.left_out());
     if json {
         let mut document = json!({

@@ -1,13 +1,13 @@
 //! `triad run`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use axum::http::StatusCode;
 use triad_engine::EngineError;
 use triad_engine::model::Model;
 use triad_engine::run::Simulation;
-use triad_engine::scene::{IntegratorKind, OutputKind, Scene, Settings, Skip};
+use triad_engine::scene::{IntegratorKind, Scene, Skip};
 use triad_lab::film::Film;
 use triad_lab::verify::Verifier;
 use triad_session::picture::{Sample, describe, sample};
@@ -23,9 +23,15 @@ use crate::motion::Film as RecordedFilm;
 use crate::page::playing;
 use crate::problem::Problem;
 use crate::stream::{RecordError, Recorder};
+use crate::table::with_errors;
 
 /// Samples that are encoded together.
 const BATCH: usize = 256;
+/// What lets errors be written.
+pub(in crate::cli) const LEAVE_OUT: &str =
+    "leave --no-estimate out (and \"error_estimate\": false in the scene), or errors out of --outputs";
+/// A turn between two pictures, rad, from which on a straight line between them is no longer like the motion.
+const COARSE: f64 = 0.8;
 /// Rows that a table or recording may have.
 const MAX_OUTPUTS: f64 = 1e7;
 
@@ -53,7 +59,7 @@ pub(in crate::cli) fn run(options: &Run, json: bool) -> Result<Outcome, Problem>
     let stopped = advance(&mut simulation, verifier.as_mut(), &mut outputs, &course, &mut clock);
     drop(bar);
     // What was reached before an error is kept.
-    outputs.finish()?;
+    let pictured = outputs.finish()?;
     clock.lap("write");
     let stopped = match stopped {
         Ok(()) => None,
@@ -61,7 +67,7 @@ pub(in crate::cli) fn run(options: &Run, json: bool) -> Result<Outcome, Problem>
         Err(Stop::Output(problem)) => return Err(problem),
     };
     let verified = verifier.as_ref().map(Verifier::found);
-    let found = Found { stopped: stopped.as_ref(), verified, clock: &clock };
+    let found = Found { stopped: stopped.as_ref(), verified, pictured: &pictured, clock: &clock };
     report(&scene, &simulation, options, &found, json);
     Ok(if stopped.is_none() { Outcome::Done } else { Outcome::No })
 }
@@ -85,7 +91,7 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
     simulation.error_estimate &= !options.no_estimate;
     if !options.outputs.is_empty() {
         simulation.outputs.clone_from(&options.outputs);
-        with_errors(simulation)?;
+        with_errors(simulation, LEAVE_OUT)?;
     }
     let outputs = simulation.duration / simulation.every;
     if options.writes() && outputs > MAX_OUTPUTS {
@@ -97,19 +103,6 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
         ));
     }
     Ok(scene)
-}
-
-/// Refuses to write errors that are not estimated.
-pub(in crate::cli) fn with_errors(settings: &Settings) -> Result<(), Problem> {
-    if settings.error_estimate || settings.outputs.iter().all(|output| output.kind != OutputKind::Errors) {
-        return Ok(());
-    }
-    Err(Problem::new(
-        StatusCode::UNPROCESSABLE_ENTITY,
-        "no-errors",
-        "the outputs hold errors, but the run carries no estimate of them along",
-        "leave --no-estimate out (and \"error_estimate\": false in the scene), or errors out of --outputs",
-    ))
 }
 
 /// Refuses to run by another integrator than the one that was asked for.
@@ -313,19 +306,43 @@ impl Outputs {
         Ok(())
     }
 
-    fn finish(&mut self) -> Result<(), Problem> {
+    /// Writes what is still held back, and says what pictures do not show.
+    fn finish(&mut self) -> Result<Vec<String>, Problem> {
         self.encode()?;
+        let mut notes = Vec::new();
         if let Some((path, film)) = self.page.take() {
-            write(&path, playing(&film.develop())?)?;
+            let forces = film.tells_forces();
+            let (motion, coarse) = film.developed();
+            notes.extend(coarse_note(&path, coarse));
+            if forces && motion.joints.is_empty() {
+                notes.push(format!("{} has no room for the forces of so many joints", path.display()));
+            }
+            write(&path, playing(&motion)?)?;
         }
         for recording in &self.recorders {
             recording.recorder.flush().map_err(|error| recording.failed(&error))?;
         }
         if let Some((path, film)) = &self.film {
+            notes.extend(coarse_note(path, film.coarseness()));
             write(path, film.svg(true))?;
         }
-        self.table.take().map_or(Ok(()), |table| table.finish().map_err(|error| output_failed(&error)))
+        if let Some(table) = self.table.take() {
+            table.finish().map_err(|error| output_failed(&error))?;
+        }
+        Ok(notes)
     }
+}
+
+/// That the way from one picture to the next is more than a straight line shows.
+fn coarse_note(path: &Path, (pictures, turn): (usize, f64)) -> Option<String> {
+    (turn > COARSE).then(|| {
+        format!(
+            "{}: bodies turn by up to {:.0}° from one of its {pictures} pictures to the next, and it draws straight ways between them: \
+             a shorter --until or --every shows how they move",
+            path.display(),
+            turn.to_degrees()
+        )
+    })
 }
 
 fn no_viewer(url: &str, error: &RecordError) -> Problem {
