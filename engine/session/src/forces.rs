@@ -55,6 +55,8 @@ impl ReactionsView {
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "JointMultipliers")]
 pub struct MultipliersView {
+    /// Time of the state, s: the latest that is kept and not after the one that was asked for.
+    time: f64,
     /// Name of the joint.
     joint: String,
     /// The multipliers of its rows.
@@ -80,7 +82,9 @@ pub struct MultipliersList(Vec<MultipliersView>);
 impl MultipliersList {
     /// Those of a state.
     pub fn of(run: &StateView) -> Self {
+        let time = run.time();
         let joints = run.multipliers().into_iter().map(|joint| MultipliersView {
+            time,
             joint: joint.joint,
             rows: joint.rows,
             force_on_j: joint.force,
@@ -100,9 +104,9 @@ fn about(asked: Option<&str>) -> Result<MomentReference, Refusal> {
         Some("center") => return Ok(MomentReference::CenterOfMass),
         Some(text) => text,
     };
-    let numbers: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).collect();
-    match numbers[..] {
-        [x, y, z] if [x, y, z].iter().all(|n: &f64| n.is_finite()) => {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[x, y, z]) if [x, y, z].iter().all(|n: &f64| n.is_finite()) => {
             Ok(MomentReference::WorldPoint([x, y, z]))
         }
         _ => Err(Refusal::new(

@@ -10,7 +10,7 @@ const MAX_SEGMENTS: usize = 32;
 /// Bodies of all stretches together: each holds its mechanism, of some 20 kB a body.
 const MAX_BODIES: usize = 256;
 /// Times that differ by less are the same, s: far below any step, far above rounding.
-const SAME_TIME: f64 = 1e-9;
+pub(crate) const SAME_TIME: f64 = 1e-9;
 
 /// States of a run, thinned out evenly when they become too many.
 #[derive(Debug)]
@@ -101,7 +101,7 @@ fn size(snapshots: &[Snapshot]) -> usize {
     snapshots.iter().map(Snapshot::size).sum()
 }
 
-fn unknown(time: f64) -> Refusal {
+pub(crate) fn unknown(time: f64) -> Refusal {
     Refusal::new(
         StatusCode::UNPROCESSABLE_ENTITY,
         "unknown-time",

@@ -8,7 +8,7 @@ use triad_engine::scene::Scene;
 
 use crate::change::{AfterChange, Drag, SceneChange, SessionScene, as_it_runs};
 use crate::drawing::{Arrows, Camera};
-use crate::history::History;
+use crate::history::{History, SAME_TIME, unknown};
 use crate::kept::KeptSession;
 use crate::picture::{Samples, describe};
 use crate::refusal::Refusal;
@@ -43,6 +43,8 @@ pub struct Run {
     /// The scene that runs, without the spring of a drag.
     scene: Scene,
     changes: u64,
+    /// When the run went on with other numbers last, s: its estimated errors count from then on.
+    errors_from: Option<f64>,
     drag: Option<Drag>,
     simulation: Simulation,
     samples: Samples,
@@ -111,6 +113,7 @@ impl Run {
             original,
             scene,
             changes: 0,
+            errors_from: None,
             drag: None,
             simulation,
             samples,
@@ -157,11 +160,14 @@ impl Run {
 
     /// The state of a moment that the run has passed, or the present's.
     ///
-    /// Errors if that moment is not kept.
+    /// Errors if that moment is not kept, or not reached.
     pub fn at(&self, time: Option<f64>) -> Result<StateView<'_>, Refusal> {
-        match time.filter(|at| *at < self.simulation.time()) {
+        let now = self.simulation.time();
+        match time {
             None => Ok(self.simulation.state()),
-            Some(time) => self.history.at(time, &self.simulation),
+            Some(time) if time < now => self.history.at(time, &self.simulation),
+            Some(time) if time <= now + SAME_TIME => Ok(self.simulation.state()),
+            Some(time) => Err(unknown(time)),
         }
     }
 
@@ -170,6 +176,7 @@ impl Run {
         self.play = None;
         self.error = None;
         self.simulation.reset();
+        self.errors_from = None;
         self.samples.restart();
         self.history.clear();
         self.record();
@@ -194,12 +201,14 @@ impl Run {
         self.changes += 1;
         match then {
             AfterChange::Restart => {
+                self.errors_from = None;
                 self.samples.restart_with(description);
                 self.history.clear();
             }
             AfterChange::Continue => {
                 self.samples.follow(description);
                 self.history.start_segment(before);
+                self.errors_from = Some(self.simulation.time());
             }
         }
         self.run_on(now);
@@ -214,6 +223,7 @@ impl Run {
         let mut next = self.assembled(&self.scene, drag.as_ref())?;
         self.transfer_state(&mut next)?;
         self.history.start_segment(std::mem::replace(&mut self.simulation, next));
+        self.errors_from = Some(self.simulation.time());
         self.drag = drag;
         self.run_on(now);
         Ok(())
@@ -375,6 +385,7 @@ impl Run {
             drawing: Drawing::of(&self.samples),
             changes: self.changes,
             drag: self.drag.clone(),
+            errors_from: self.errors_from.filter(|time| *time > 0.0),
             error: self.error.as_ref().map(|error| error.document(trace_id())),
         };
         SessionState::of(&self.simulation, facts)

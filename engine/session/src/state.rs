@@ -254,6 +254,8 @@ pub(crate) struct SessionFacts {
     pub drawing: Drawing,
     pub changes: u64,
     pub drag: Option<Drag>,
+    /// When the run went on with other numbers, s.
+    pub errors_from: Option<f64>,
     pub error: Option<ProblemDocument>,
 }
 
@@ -265,6 +267,12 @@ impl SessionState {
         let accelerations = simulation.mass_accelerations();
         let forces = forces(simulation);
         let accuracy = summary.error.map(|error| Accuracy::of(simulation, error, !forces.is_empty()));
+        let mut notes = [simulation.notes(), &summary.doubts].concat();
+        if let (Some(time), Some(_)) = (facts.errors_from, &accuracy) {
+            notes.push(format!(
+                "estimated errors count from t = {time:.3} s on, when the numbers of the run were changed"
+            ));
+        }
         let poses = frame.bodies.iter().zip(&accelerations);
         let bodies =
             simulation.model().bodies.iter().zip(poses).map(|(body, (pose, &acceleration))| SessionBody {
@@ -307,7 +315,7 @@ impl SessionState {
             drawing: facts.drawing,
             changes: facts.changes,
             pull: facts.drag,
-            notes: [simulation.notes(), &summary.doubts].concat(),
+            notes,
             error: facts.error,
             bodies: bodies.collect(),
             forces,

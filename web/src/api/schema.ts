@@ -1598,6 +1598,11 @@ export interface components {
             on: string;
             /** @description The multipliers of its rows. */
             rows: components["schemas"]["Multiplier"][];
+            /**
+             * Format: double
+             * @description Time of the state, s: the latest that is kept and not after the one that was asked for.
+             */
+            time: number;
         };
         /**
          * @description Where a joint stands at the start, and how fast it moves. The stated positions of the bodies are those at the angle 0 or at

@@ -58,3 +58,41 @@ fn a_run_that_stopped_says_why_and_starts_over() {
     run.reset();
     assert_eq!(run.ready(), Ok(()));
 }
+
+#[test]
+fn a_time_that_the_run_has_not_reached_has_no_answer_and_each_answer_tells_its_time() {
+    let mut run = pendulum();
+    while let Ok(true) = run.advance(0.5) {}
+    let now = run.time();
+    for time in [now + 0.1, f64::INFINITY, f64::NAN, -0.1] {
+        assert_eq!(
+            run.at(Some(time)).map(|state| state.time()).map_err(|refusal| refusal.code()),
+            Err("unknown-time")
+        );
+    }
+    assert_eq!(run.at(Some(now)).expect("now").time(), now);
+    let before = run.at(Some(0.234_5)).expect("is kept");
+    assert!(before.time() <= 0.234_5 && before.time() > 0.2, "{}", before.time());
+    let told = serde_json::to_value(crate::forces::MultipliersList::of(&before)).expect("JSON");
+    assert_eq!(told[0]["time"], before.time());
+    for (about, good) in [("0,1,0", true), ("0,x,1,0", false), ("0,1,0,", false)] {
+        let asked = serde_json::from_value(serde_json::json!({ "about": about })).expect("a query");
+        assert_eq!(crate::forces::ReactionsView::of(&before, &asked).is_ok(), good, "{about}");
+    }
+}
+
+#[test]
+fn errors_that_begin_anew_with_other_numbers_say_so() {
+    let mut run = pendulum();
+    let noted = |run: &Run| {
+        let notes = run.state(Streamed::default(), String::new).notes;
+        notes.iter().any(|note| note.starts_with("estimated errors count from t = 0.5"))
+    };
+    while let Ok(true) = run.advance(0.5) {}
+    assert!(!noted(&run));
+    let other = serde_json::json!({ "places": { "/gravity/1": -3.0 }, "then": "continue" });
+    run.change(&serde_json::from_value(other).expect("a change"), 0.0).expect("goes on");
+    assert!(noted(&run));
+    run.reset();
+    assert!(!noted(&run));
+}

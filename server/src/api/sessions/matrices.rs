@@ -22,7 +22,7 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
 
 /// The Jacobian.
 #[utoipa::path(get, path = "/sessions/{id}/jacobian", operation_id = "get_jacobian", tag = "sessions", params(("id" = String, Path),
-    ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
+    ("at" = Option<f64>, Query, description = "A time that the run has passed, s: the latest state that is kept and not after it answers, and tells its time. The present if it is not given")),
     responses((status = 200, description = "Pattern and values", body = ref(of::<JacobianView>())),
     (status = 422, description = "The state of that time is not kept", body = ref(PROBLEM))))]
 async fn jacobian(
@@ -39,7 +39,7 @@ pub(in crate::api) async fn jacobian_of(session: &Session, at: Option<f64>) -> R
 
 /// The augmented matrix of the equations of motion, with the fill of eliminating coordinates first.
 #[utoipa::path(get, path = "/sessions/{id}/augmented", operation_id = "get_augmented_matrix", tag = "sessions", params(("id" = String, Path),
-    ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
+    ("at" = Option<f64>, Query, description = "A time that the run has passed, s: the latest state that is kept and not after it answers, and tells its time. The present if it is not given")),
     responses((status = 200, description = "Pattern and values", body = ref(of::<SymmetricView>())),
     (status = 422, description = "It is too large, or the state of that time is not kept", body = ref(PROBLEM))))]
 #[allow(
@@ -56,7 +56,7 @@ async fn augmented(
 
 /// The matrix S that the solver factors, in its order of elimination, with the fill of its factor.
 #[utoipa::path(get, path = "/sessions/{id}/schur", operation_id = "get_schur_complement", tag = "sessions", params(("id" = String, Path),
-    ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
+    ("at" = Option<f64>, Query, description = "A time that the run has passed, s: the latest state that is kept and not after it answers, and tells its time. The present if it is not given")),
     responses((status = 200, description = "Pattern and values", body = ref(of::<SymmetricView>())),
     (status = 422, description = "It is too large, or the state of that time is not kept", body = ref(PROBLEM))))]
 #[allow(

@@ -36,7 +36,7 @@ pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
         description = "About the `joint`, the `center` of mass of that body, or a point of the world like `0,1,0`"),
     ("in" = Option<String>, Query, example = "world",
         description = "Components in the frame of the `world`, of the `joint`, or of that `body`"),
-    ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
+    ("at" = Option<f64>, Query, description = "A time that the run has passed, s: the latest state that is kept and not after it answers, and tells its time. The present if it is not given")),
     responses((status = 200, description = "One entry a joint or driver", body = ref(of::<ReactionsView>())),
     (status = 404, description = "No such session", body = ref(PROBLEM)),
     (status = 422, description = "The scene has too many rows to tell which are unique", body = ref(PROBLEM))))]
@@ -57,7 +57,7 @@ pub(in crate::api) async fn reactions_of(
 
 /// The multipliers and reactions, joint by joint.
 #[utoipa::path(get, path = "/sessions/{id}/multipliers", operation_id = "get_multipliers", tag = "sessions", params(("id" = String, Path),
-    ("at" = Option<f64>, Query, description = "A time that the run has passed, s; the present if it is not given")),
+    ("at" = Option<f64>, Query, description = "A time that the run has passed, s: the latest state that is kept and not after it answers, and tells its time. The present if it is not given")),
     responses((status = 200, description = "One entry a joint", body = ref(of::<MultipliersList>()))))]
 async fn multipliers(
     State(app): State<App>,
