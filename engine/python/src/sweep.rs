@@ -10,6 +10,7 @@ use serde_json::json;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
+use triad_engine::run::Simulation;
 use triad_lab::sweep::{self as lab, SweepError, SweepPlan, Values, Variation, Watch};
 
 /// How a number varies.
@@ -111,7 +112,8 @@ pub fn sweep(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Sweep> {
     let mut scene = scene::read(kind, text)?;
-    Options::from_json(options)?.apply(&mut scene)?;
+    let options = Options::from_json(options)?;
+    options.apply(&mut scene)?;
     let vary: Vec<(String, Varied)> = serde_json::from_str(vary).map_err(Refusal::from)?;
     let mut varied = Vec::with_capacity(vary.len());
     for (name, values) in vary {
@@ -122,7 +124,10 @@ pub fn sweep(
         };
         varied.push(Variation::new(&scene, &name, values).map_err(Refusal::from)?);
     }
-    let plan = SweepPlan { varied, samples, seed, ..SweepPlan::new(scene) };
+    let plan = SweepPlan { varied, samples, seed, ..SweepPlan::with_errors(scene) };
+    if let Ok(run) = Simulation::new(&plan.scene) {
+        options.check_choice(&run)?;
+    }
     py.detach(|| watched(&plan, threads, progress.as_ref()))
 }
 

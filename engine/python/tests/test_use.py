@@ -113,13 +113,13 @@ def test_other_threads_go_on_while_a_run_computes():
 
 def test_a_sweep_is_its_runs_whatever_the_number_of_threads():
     vary = {"/bodies/0/mass": triad.grid(1, 2, 3), "/gravity/1": triad.normal(-9.81, 0.1)}
-    options = {"samples": 4, "seed": 7, "until": 0.5, "outputs": ["energy", "joints"]}
+    options = {"samples": 4, "seed": 7, "until": 0.5, "outputs": ["energy", "joints", "errors"]}
     one, many = (triad.sweep("simple-pendulum", vary, threads=n, **options) for n in (1, 3))
     assert np.array_equal(one.values, many.values) and np.array_equal(one.outputs, many.outputs)
     assert len(one) == 12 and sorted(set(one["/bodies/0/mass"])) == [1.0, 1.5, 2.0]
     scene = triad.scene("simple-pendulum")
     scene["bodies"][0]["mass"], scene["gravity"][1] = one.values[5]
-    alone = triad.run(scene, until=0.5, outputs=["energy", "joints"])
+    alone = triad.run(scene, until=0.5, outputs=["energy", "joints", "errors"])
     assert np.array_equal(one.outputs[5], [alone[name][-1] for name in one.columns])
     assert one.svg("energy").startswith("<svg") and not one.stopped
     assert list(one.to_pandas().columns) == [*one.varied, *one.columns]
@@ -129,9 +129,25 @@ def test_a_sweep_names_the_runs_that_stopped():
     found = triad.sweep("simple-pendulum", {"/bodies/0/mass": triad.grid(-1, 1, 3)}, until=0.1)
     assert [stop["run"] for stop in found.stopped] == [0, 1] and found.stopped[0]["hint"]
     assert np.isnan(found.outputs[0]).all() and not np.isnan(found.outputs[2]).any()
-    for wrong in ((1, 2), [1, 2, 4], np.array([1.0, np.nan]), ["a"], np.ones((2, 2))):
+    # Three bare numbers could be values, or the ends of a grid and a count.
+    for wrong in ((1, 2), (1, 2, 3), (1.0, 1.5, 2.0), triad.normal(1, -0.1), triad.grid(1, float("nan"), 3), [1, 2, 4], np.array([1.0, np.nan]), ["a"], np.ones((2, 2))):
         with pytest.raises(triad.TriadError, match="cannot vary"):
             triad.sweep("simple-pendulum", {"/bodies/0/mass": wrong})
+
+
+def test_a_sweep_has_its_errors_and_runs_as_it_was_asked_to():
+    vary = {"/bodies/0/mass": [1, 2]}
+    found = triad.sweep("simple-pendulum", vary, until=1, outputs=["joints"])
+    assert (found["position_error"] > 0).all() and (found["position_error"] < 1e-5).all()
+    bare = triad.sweep("simple-pendulum", vary, until=1, outputs=["joints"], estimate=False)
+    assert bare.columns == ["pin.angle", "pin.angle_rate"]
+    for ask in (lambda **options: triad.run("simple-pendulum", **options), lambda **options: triad.sweep("simple-pendulum", vary, **options)):
+        with pytest.raises(triad.TriadError, match="no-errors"):
+            ask(until=1, outputs=["joints", "errors"], estimate=False)
+    scene = triad.scene("simple-pendulum")
+    scene["simulation"] = {"duration": 1, "stabilization": {"kind": "baumgarte", "alpha": 5, "beta": 5}}
+    with pytest.raises(triad.TriadError, match="would run by dop853"):
+        triad.sweep(scene, vary, integrator="taylor")
 
 
 def test_arrays_of_equally_spaced_values_are_grids():

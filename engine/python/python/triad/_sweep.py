@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Optional, Union
+from numbers import Real
+from typing import TYPE_CHECKING, Any, Literal, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,12 +18,12 @@ from ._scene import Scene, as_json, named, words
 if TYPE_CHECKING:
     import pandas
 
-Values = Union[tuple[float, float, int], tuple[str, float, float]]
+Values = Union[tuple[Literal["grid"], float, float, int], tuple[Literal["uniform", "normal"], float, float]]
 
 
 def grid(start: float, stop: float, count: int) -> Values:
     """Equally spaced values, both ends included. Grids of several numbers are crossed."""
-    return (start, stop, count)
+    return ("grid", start, stop, count)
 
 
 def uniform(low: float, high: float) -> Values:
@@ -103,7 +105,8 @@ def sweep(
     threads   0 takes one for each core
     progress  called with (runs done, runs) some twenty times a second
 
-    The other options are those of ``run``. Ctrl-C ends the sweep.
+    The other options are those of ``run``; estimated errors stand beside the outputs, unless ``estimate=False`` leaves them out. Ctrl-C
+    ends the sweep.
     """
     options = {
         "until": until,
@@ -123,11 +126,13 @@ def _values(name: str, values: Union[Values, Sequence[Any], NDArray[Any]]) -> di
     if isinstance(values, (list, np.ndarray)):
         return _equally_spaced(name, values)
     parts = list(values)
-    if len(parts) == 3 and parts[0] in ("uniform", "normal"):
-        return {parts[0]: [float(parts[1]), float(parts[2])]}
-    if len(parts) == 3 and not isinstance(parts[0], str) and int(parts[2]) == parts[2] > 0:
-        return {"grid": [float(parts[0]), float(parts[1]), int(parts[2])]}
-    raise refusal("vary", f"{name} cannot vary over {values!r}", "give grid(1, 2, 11), uniform(1, 2) or normal(1, 0.1)")
+    kind, numbers = parts[:1], parts[1:]
+    known = all(isinstance(x, Real) and math.isfinite(x) for x in numbers)
+    if known and len(numbers) == 2 and (kind == ["uniform"] or (kind == ["normal"] and numbers[1] >= 0)):
+        return {kind[0]: [float(x) for x in numbers]}
+    if known and len(numbers) == 3 and kind == ["grid"] and int(numbers[2]) == numbers[2] > 0:
+        return {"grid": [float(numbers[0]), float(numbers[1]), int(numbers[2])]}
+    raise refusal("vary", f"{name} cannot vary over {values!r}", "give grid(1, 2, 11), uniform(1, 2), normal(1, 0.1) or a list")
 
 
 def _equally_spaced(name: str, values: Union[list[Any], NDArray[Any]]) -> dict[str, Any]:
