@@ -5,7 +5,7 @@ use super::flow::{Flow, Spin};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use triad_dynamics::system::body::RigidBody;
 use triad_dynamics::system::natural::NaturalCoordinates;
-use triad_linalg::least_squares;
+use triad_linalg::{least_squares, null_and_rest};
 
 /// Relative difference of principal moments below which a body is alike all around the third axis.
 const ALIKE: f64 = 1e-9;
@@ -98,6 +98,12 @@ impl Fields {
         out
     }
 
+    /// A twist that is nothing special.
+    pub fn any(&self, length: usize, which: usize) -> DVector<f64> {
+        let arc = |k: usize| if k % 6 >= 3 { self.length } else { 1.0 };
+        DVector::from_fn(length, |k, _| libm::sin((3 * k + which + 1) as f64) / arc(k))
+    }
+
     /// Length of a twist, arcs measured as the fields measure them.
     pub fn size(&self, twist: &DVector<f64>) -> f64 {
         let arc = |k: usize| if k % 6 >= 3 { self.length } else { 1.0 };
@@ -167,12 +173,19 @@ impl Momenta {
     /// Velocities along the fields that have these momenta at a place, but for the velocity as a whole.
     pub fn velocities(&self, bodies: &[RigidBody], at: &[NaturalCoordinates]) -> DVector<f64> {
         let moving = energetic(bodies, at, self.fields.twists(at));
-        let free = &moving * &self.allowed.free;
-        let smallest = MISSED * free.norm();
-        let mut found = self.allowed.clone();
-        let mut wanted = Solutions::all(moving.nrows());
-        wanted.narrow(&free.transpose(), &self.along, smallest);
-        found.narrow(&moving, &wanted.one, smallest);
+        let Solutions { one, free } = &self.allowed;
+        let along = &moving * free;
+        let (null, rest) = null_and_rest(&along, MISSED * along.norm());
+        let mut found = Solutions { one: one.clone(), free: free * null };
+        if !rest.is_empty() {
+            // Rᵀ R y = restᵀ (μ − …), as the factor R of the velocities has more digits than that of the masses.
+            let qr = (along * &rest).qr();
+            let mut y = rest.tr_mul(&self.along);
+            qr.r().tr_solve_upper_triangular_mut(&mut y);
+            y -= qr.q().tr_mul(&(moving * one));
+            qr.r().solve_upper_triangular_mut(&mut y);
+            found.one += free * (rest * y);
+        }
         // A frame that need not turn does not: then frequencies are those that somebody at rest sees.
         let turning = DMatrix::identity(3, found.one.len());
         found.without(&turning, MISSED);

@@ -11,9 +11,9 @@ to rounding; second derivatives are differences of order four of them. It needs 
 
 import json
 import math
-import random
 
 import numpy as np
+from random_mechanisms import Draw, beside, unit
 from scipy.linalg import eig, eigh, null_space
 
 SCENES = 40
@@ -34,11 +34,6 @@ def across(axis):
     """Two unit vectors across another."""
     first = unit(cross_matrix(axis)[np.argmin(abs(axis))])
     return first, cross_matrix(axis) @ first
-
-
-def unit(vector):
-    vector = np.array(vector, float)
-    return vector / math.sqrt(vector @ vector)
 
 
 class Mechanism:
@@ -196,7 +191,7 @@ class Mechanism:
                 return poses
             left = size
             along = motions.T @ gradient
-            step = -basis @ motions @ np.where(abs(along) > 1e-14 * max(abs(values)) * self.length, along / np.maximum(abs(values), 1e-9 * max(abs(values))), 0)
+            step = -basis @ motions @ (along / np.maximum(abs(values), 1e-9 * max(abs(values))))
             step *= min(1, 0.5 * self.length / max(np.linalg.norm(step), 1e-300))
             here = self.energy(poses)
             for _ in range(30):
@@ -232,111 +227,6 @@ class Mechanism:
         return sorted(values, key=lambda x: (x.imag, x.real))
 
 
-class Draw:
-    """A random mechanism. Its lengths, masses and times are of the same size each; those of scenes are not."""
-
-    def __init__(self, seed):
-        self.random = random.Random(seed)
-        self.length, self.mass = 10 ** self.choice([0, 0, 0, -2, 2]), 10 ** self.choice([0, 0, 0, -3, 3])
-        self.force = self.mass * 9.81
-        self.time = math.sqrt(self.length / 9.81)
-
-    def choice(self, options):
-        return self.random.choice(options)
-
-    def within(self, low, high):
-        return self.random.uniform(low, high)
-
-    def vector(self, size=1.0):
-        return np.array([self.within(-size, size) for _ in range(3)])
-
-    def direction(self):
-        while True:
-            vector = self.vector()
-            if 0.3 < np.linalg.norm(vector) < 1:
-                return unit(vector)
-
-    def rotation(self):
-        return np.linalg.qr(np.column_stack([self.direction() for _ in range(3)]))[0]
-
-    def body(self, name, position):
-        axes = self.rotation()
-        axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
-        moments = sorted(self.within(0.3, 1) for _ in range(3))
-        moments[2] = min(moments[2], 0.95 * (moments[0] + moments[1]))
-        turn = self.rotation()
-        tensor = turn @ np.diag(moments) @ turn.T * (0.1 * self.mass * self.length**2)
-        return {"name": name, "mass": self.mass * self.within(0.5, 2), "position": position.tolist(),
-                "orientation": {"u": axes[:, 0].tolist(), "v": axes[:, 1].tolist()},
-                "center_of_mass": self.vector(0.3 * self.length).tolist(), "inertia": {"tensor": ((tensor + tensor.T) / 2).tolist()}}
-
-    def scene(self, name):
-        bodies, joints = [], []
-        kinds = ["revolute"] * 4 + ["spherical", "universal", "cylindrical", "screw", "prismatic", "planar", "fixed", "point-on-line", "point-in-plane"]
-        places = {"ground": np.zeros(3)}
-        for letter in "abcd"[: self.choice([1, 2, 2, 3, 3, 4])]:
-            before = self.choice(list(places))
-            places[letter] = places[before] + self.direction() * self.length * self.within(0.6, 1.2)
-            bodies.append(self.body(letter, places[letter]))
-            joints.append({"name": "J" + letter, "type": self.choice(kinds), "body_i": before, "body_j": letter,
-                           "point": (places[before] + places[letter]) / 2 + self.direction() * 0.2 * self.length, "axis": self.direction()})
-        for k in range(self.choice([0, 0, 1, 1, 2])):
-            i, j = self.random.sample(list(places), 2)
-            i, j = (j, i) if j == "ground" else (i, j)
-            joints.append({"name": f"L{k}", "type": self.choice(["rod", "rod", "point-on-line", "point-in-plane"]), "body_i": i, "body_j": j,
-                           "point": (places[i] + places[j]) / 2 + self.direction() * 0.3 * self.length, "axis": self.direction(),
-                           "other": places[j] + self.direction() * 0.3 * self.length})
-        scene = {"name": name, "gravity": (self.direction() * 9.81).tolist(), "bodies": bodies, "joints": joints, "loads": []}
-        self.attach(scene)
-        revolutes = [joint["name"] for joint in joints if joint["type"] == "revolute"]
-        if len(revolutes) > 1 and self.choice([True, False]):
-            scene["joints"].append({"name": "G", "type": "gear", "joints": self.random.sample(revolutes, 2), "ratio": self.choice([-2.0, 0.5, 3.0, 1.7])})
-        self.load(scene)
-        return scene
-
-    def attach(self, scene):
-        """Points and axes of joints in the frames of their bodies."""
-        frames = {"ground": (np.zeros(3), np.eye(3))}
-        for body in scene["bodies"]:
-            u, v = (np.array(body["orientation"][key]) for key in "uv")
-            frames[body["name"]] = np.array(body["position"]), np.column_stack([u, v, np.cross(u, v)])
-        for joint in scene["joints"]:
-            point, axis, other = (joint.pop(key, None) for key in ("point", "axis", "other"))
-            second = self.direction()
-            for side in "ij":
-                origin, axes = frames[joint["body_" + side]]
-                there = other if joint["type"] == "rod" and side == "j" else point
-                joint["point_" + side] = (axes.T @ (there - origin)).tolist()
-                along = unit(np.cross(axis, second)) if joint["type"] == "universal" and side == "j" else axis
-                if joint["type"] not in ("spherical", "rod", "fixed") and not (joint["type"].startswith("point") and side == "j"):
-                    joint["axis_" + side] = (axes.T @ along).tolist()
-            if joint["type"] == "rod":
-                joint["length"] = float(np.linalg.norm(other - point))
-            if joint["type"] == "screw":
-                joint["pitch"] = self.within(-1, 1) * self.length
-
-    def load(self, scene):
-        stiffness, loads = self.force / self.length, scene["loads"]
-        for joint in scene["joints"]:
-            if joint["type"] in ("revolute", "cylindrical") and self.choice([True, False]):
-                loads.append({"type": "torsion", "name": "T" + joint["name"], "joint": joint["name"], "free_angle": self.within(-1, 1),
-                              "stiffness": self.force * self.length * self.within(0, 2), "damping": self.damping(self.force * self.length * 0.3)})
-            if joint["type"] in ("prismatic", "cylindrical"):
-                loads.append({"type": "slider", "name": "S" + joint["name"], "joint": joint["name"], "free_length": self.within(-0.2, 0.2) * self.length,
-                              "stiffness": stiffness * self.within(2, 8), "damping": self.damping(stiffness)})
-        for k, body in enumerate(scene["bodies"]):
-            hangs = scene["joints"][k]["type"] in ("revolute", "spherical", "universal", "prismatic", "cylindrical", "fixed")
-            if not hangs or self.choice([True, False]):
-                other = self.choice(["ground", scene["bodies"][0]["name"]] if k else ["ground"])
-                loads.append({"type": "spring", "name": f"P{k}", "body_i": other, "body_j": body["name"], "point_i": self.vector(0.5 * self.length).tolist(),
-                              "point_j": self.vector(0.5 * self.length).tolist(), "free_length": self.within(0, 1) * self.length,
-                              "stiffness": stiffness * self.within(2, 8), "damping": self.damping(stiffness)})
-
-    def damping(self, size):
-        """None, some, or so much that motions creep."""
-        return self.choice([0.0, 1.0, 1.0, 30.0]) * self.within(0, 1) * size * self.time
-
-
 def started(scene, draw):
     """The scene near its position of rest, so that there is no doubt which one is meant; `None` if it has none."""
     mechanism = Mechanism(scene)
@@ -348,9 +238,8 @@ def started(scene, draw):
     poses = mechanism.closed(mechanism.moved(rest, 0.05 * mechanism.length * away / np.linalg.norm(away)))
     mechanism.take(poses)
     for body, center, (r, axes) in zip(scene["bodies"], mechanism.centers, poses):
-        u, v, _ = np.linalg.qr(axes)[0].T * np.sign(np.diag(np.linalg.qr(axes)[1]))[:, None]
-        axes = np.column_stack([u, v, np.cross(u, v)])
-        body["position"], body["orientation"] = (r - axes @ center).tolist(), {"u": u.tolist(), "v": v.tolist()}
+        body["position"] = (r - axes @ center).tolist()
+        body["orientation"] = {"u": axes[:, 0].tolist(), "v": axes[:, 1].tolist()}
     for load in scene["loads"]:
         if load["type"] == "torsion":
             load["free_angle"] -= mechanism.angles[load["joint"]]
@@ -360,27 +249,6 @@ def started(scene, draw):
             along = mechanism.slide(poses, joint) * unit(joint["axis_i"])
             joint["point_i"] = (np.array(joint["point_i"]) + along).tolist()
     return scene
-
-
-def beside(scene, copies):
-    """The scene and copies of it: of each, what is added to names, how far it is away, and by what its damping is multiplied."""
-    out = {**scene, **{kind: list(scene[kind]) for kind in ("bodies", "joints", "loads")}}
-    for mark, away, damping in copies:
-        for kind in ("bodies", "joints", "loads"):
-            for element in scene[kind]:
-                copy = json.loads(json.dumps(element))
-                for key in ("name", "body_i", "body_j", "joint"):
-                    if copy.get(key, "ground") != "ground":
-                        copy[key] += mark
-                if "joints" in copy:
-                    copy["joints"] = [name + mark for name in copy["joints"]]
-                if "damping" in copy:
-                    copy["damping"] *= damping
-                for place, body in (("position", None), ("point_i", copy.get("body_i")), ("point_j", copy.get("body_j"))):
-                    if place in copy and body in (None, "ground"):
-                        copy[place] = (np.array(copy[place]) + away).tolist()
-                out[kind].append(copy)
-    return out
 
 
 def reference(seed):

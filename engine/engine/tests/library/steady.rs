@@ -257,6 +257,20 @@ fn a_body_on_a_ball_goes_round_on_a_cone() {
     }
 }
 
+/// A point on a rod keeps m l² Ω sin² θ on its way to the cone where Ω² cos θ = g/l, and nods there with Ω² (1 + 3 cos² θ).
+#[test]
+fn a_point_on_a_rod_goes_round_on_a_cone() {
+    let (arm, speed) = ([0.6f64, -0.8], 2.0);
+    let found = steady_of(&json!({ "name": "point", "gravity": [0, 0, -G],
+        "bodies": [{ "name": "bob", "mass": 1.5, "position": [arm[0], 0, arm[1]], "velocity": [0, speed, 0] }],
+        "joints": [{ "name": "rod", "type": "rod", "body_i": "ground", "body_j": "bob", "point_i": [0, 0, 0], "point_j": [0, 0, 0], "length": 1 }] }));
+    let turn = found.steady.as_ref().unwrap().turning[2];
+    let [x, y, z] = found.bodies[0].position;
+    same(&[(x * x + y * y) * turn, -z * turn * turn], &[arm[0] * speed, G], 1e-9);
+    same(&frequencies(&found), &[turn * (1.0 + 3.0 * z * z).sqrt()], 1e-9);
+    assert_eq!((found.freedoms, drifts(&found), found.left_out), (5, 1, 3));
+}
+
 /// A satellite of two parts, one of which slides on a spring: with x between their centres and μ = m₁ m₂/(m₁ + m₂), k (x − x₀) =
 /// μ x Ω², I Ω the momentum of the start, and ω² = k/μ − Ω² + 4 μ x² Ω²/I along the slide. Besides it wobbles as a rigid body. It
 /// starts off balance, with a velocity across its axis, and goes along uniformly.

@@ -78,7 +78,9 @@ impl Pencil {
     /// With damping, or where K is not symmetric. Drifts are not among them. `None` where the QR algorithm fails.
     pub fn damped(&self) -> Option<Vec<Eigen>> {
         let mut found: Vec<Eigen> = Vec::new();
-        for value in spectrum(&self.first_order())?.into_iter().filter(|value| value.im >= 0.0) {
+        for value in
+            spectrum(&self.first_order())?.into_iter().map(real_twice).filter(|value| value.im >= 0.0)
+        {
             let known: Vec<&Vector> = found
                 .iter()
                 .filter(|other| (other.value - value).modulus() <= REPEATED * value.modulus())
@@ -202,6 +204,11 @@ pub fn solve(matrix: DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
         return right.clone();
     }
     matrix.lu().solve(right).unwrap_or_else(|| DMatrix::zeros(right.nrows(), right.ncols()))
+}
+
+/// Rounding makes a pair of conjugates of two real eigenvalues that are equal: both are told as real.
+fn real_twice(value: Complex<f64>) -> Complex<f64> {
+    if value.im.abs() <= REPEATED * value.re.abs() { Complex::new(value.re, 0.0) } else { value }
 }
 
 fn solve_unit(lu: &nalgebra::LU<Complex<f64>, nalgebra::Dyn, nalgebra::Dyn>, x: &mut Vector) {

@@ -14,6 +14,10 @@ const CHANGED: f64 = 1e-6;
 const STEPS: usize = 10;
 /// Way, in lengths of the mechanism, up to which one is next to it.
 const NEAR: f64 = 0.01;
+/// Positions that tell what holds at all of them: a point on a rod passes three translations but for its directions at three.
+const POSITIONS: usize = 4;
+/// Way to each, in lengths of the mechanism.
+const BESIDE: f64 = 0.05;
 /// Angle or, in lengths of the mechanism, way after which it is seen whether the motion is steady.
 const LATER: f64 = 0.7;
 
@@ -57,7 +61,7 @@ impl Unfelt {
 
 /// Finds the steady motion near the start, and holds the stage in it.
 pub fn find(stage: &mut Stage) -> Result<(SteadyMotion, Unfelt), AnalysisError> {
-    let symmetries = Symmetries::new(stage);
+    let symmetries = Symmetries::new(stage)?;
     stage.momenta = Some(symmetries.momenta.clone());
     fits(stage)?;
     symmetries.keep_momenta(stage)?;
@@ -102,17 +106,26 @@ struct Symmetries {
 }
 
 impl Symmetries {
-    fn new(stage: &mut Stage) -> Self {
+    fn new(stage: &mut Stage) -> Result<Self, AnalysisError> {
         let fields = Fields::new(&stage.mechanism.system.bodies, stage.mechanism.system.length);
         let at = stage.places(&stage.q);
         let (twists, start) = (fields.twists(&at), stage.twists());
         let column = |vector: &DVector<f64>| DMatrix::from_column_slice(vector.len(), 1, vector.as_slice());
-        let rows = stage.rows_times(&twists);
         let wanted = stage.rows_times(&column(&start)).column(0).into_owned();
         let mut allowed = Solutions::all(fields.count());
-        allowed.narrow(&rows, &wanted, MISSED * rows.norm());
-        let (changes, smallest) = changes_of_loads(stage, &fields, &twists);
-        allowed.without(&changes, smallest);
+        // What joints or loads let pass at one position alone is no motion of the whole: others tell.
+        let (from, turns) = (stage.q.clone(), stage.turns());
+        for position in 0..POSITIONS {
+            move_beside(stage, position)?;
+            let twists = fields.twists(&stage.places(&stage.q));
+            let rows = stage.rows_times(&twists);
+            let any = fields.any(start.len(), position);
+            let size = stage.rows_times(&column(&any)).norm();
+            allowed.narrow(&rows, &wanted, MISSED * size);
+            let (changes, smallest) = changes_of_loads(stage, &fields, &twists);
+            allowed.without(&changes, smallest);
+            stage.put_back(&from, &turns);
+        }
         let alike = allowed.free.clone();
         // What moves freely as a whole goes on uniformly, and its axis of turning with it.
         let mut whole = Solutions { one: DVector::zeros(fields.count()), free: alike.clone() };
@@ -134,7 +147,7 @@ impl Symmetries {
             fields,
             allowed,
         };
-        Self { alike, translations, momenta }
+        Ok(Self { alike, translations, momenta })
     }
 
     /// Whether the loads leave the momenta along the motions of the whole as they are.
@@ -166,6 +179,17 @@ impl Symmetries {
         drifts.without(&fields.bracket(&p), MISSED * p.norm());
         Unfelt { translations: &twists * &self.translations, drifts: twists * drifts.free }
     }
+}
+
+/// Moves a stage to another position that joints and drivers allow, one that is nothing special; the first stays as it is.
+fn move_beside(stage: &mut Stage, position: usize) -> Result<(), AnalysisError> {
+    if position > 0 {
+        let basis = stage.tangent()?;
+        let along = DVector::from_fn(basis.ncols(), |k, _| libm::sin((3 * k + position) as f64));
+        let size = BESIDE * stage.mechanism.system.length / along.norm().max(1.0);
+        stage.assemble(stage.moved(&(basis * along), size));
+    }
+    Ok(())
 }
 
 /// Takes a start that all but is a steady motion to that one, be it stable or not: the search that follows goes downhill.
