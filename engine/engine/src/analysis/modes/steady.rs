@@ -121,6 +121,14 @@ impl Symmetries {
             let rows = stage.rows_times(&twists);
             let any = fields.any(start.len(), position);
             let size = stage.rows_times(&column(&any)).norm();
+            // Rest meets all rows but those of drivers: these are missed if any are.
+            let mut passive = rows.clone();
+            for (mut row, wanted_there) in passive.row_iter_mut().zip(wanted.iter()) {
+                if wanted_there.abs() > MISSED * wanted.amax() {
+                    row.fill(0.0);
+                }
+            }
+            allowed.without(&passive, MISSED * size);
             allowed.narrow(&rows, &wanted, MISSED * size);
             let (changes, smallest) = changes_of_loads(stage, &fields, &twists);
             allowed.without(&changes, smallest);
