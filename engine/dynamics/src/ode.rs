@@ -15,6 +15,16 @@ pub trait OdeSystem {
     /// step: what was found there before is near.
     fn begin_stage(&mut self, _stage: usize, _first: bool) {}
 
+    /// Whether f follows from y without equations that are solved by search: then it is smooth to the last digits.
+    fn solves_nothing(&self) -> bool {
+        false
+    }
+
+    /// The first moment after t at which something in f begins anew, s, or infinity: between such moments it is smooth.
+    fn next_break(&self, _t: f64) -> f64 {
+        f64::INFINITY
+    }
+
     /// By how much errors of y are magnified where it was evaluated last.
     fn magnification(&self) -> f64 {
         1.0
@@ -64,6 +74,12 @@ impl<S: OdeSystem + ?Sized> OdeSystem for &mut S {
     }
     fn begin_stage(&mut self, stage: usize, first: bool) {
         (**self).begin_stage(stage, first);
+    }
+    fn solves_nothing(&self) -> bool {
+        (**self).solves_nothing()
+    }
+    fn next_break(&self, t: f64) -> f64 {
+        (**self).next_break(t)
     }
     fn magnification(&self) -> f64 {
         (**self).magnification()

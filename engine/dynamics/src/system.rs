@@ -20,6 +20,8 @@ pub mod driver;
 
 pub mod load;
 
+mod breaks;
+
 pub mod contact;
 
 pub mod event;

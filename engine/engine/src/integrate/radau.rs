@@ -15,12 +15,13 @@ mod differences;
 
 mod beside;
 
+mod breaks;
+
 use super::step::{MIN_ERROR, SAFETY, StepRecord, StopReason, weighted_norm};
 use super::stepper::OdeMethod;
 use beside::Beside;
 pub use coefficients::{RADAU_5, RADAU_9, RADAU_13, RadauTables};
 use linear::{Factors, RateJacobian};
-use nalgebra::DVector;
 use stages::{Stages, scale};
 use triad_dynamics::ode::OdeSystem;
 
@@ -77,7 +78,7 @@ pub struct Radau {
     stages: Stages,
     trial: Vec<f64>,
     trial_rate: Vec<f64>,
-    defect: DVector<f64>,
+    defect: Vec<f64>,
     jacobian: RateJacobian,
     factors: Option<Factors>,
     /// Ratio of successive corrections in the last step.
@@ -148,7 +149,7 @@ impl Radau {
             stages: Stages::new(tables, n),
             trial: vec![0.0; n],
             trial_rate: vec![0.0; n],
-            defect: DVector::zeros(n),
+            defect: vec![0.0; n],
             jacobian: RateJacobian::new(n / 2),
             factors: None,
             contraction: 1.0,
@@ -296,8 +297,8 @@ impl OdeMethod for Radau {
     }
 
     fn step(&mut self, system: &mut impl OdeSystem, end: f64) -> Result<(), StopReason> {
-        let mut rejected = false;
         self.go_alone(system);
+        let (mut rejected, mut end) = (false, self.end_at_rare_break(system, end));
         if self.contraction > SLOW || !self.jacobian.valid {
             self.differentiate(system)?;
         }
@@ -308,8 +309,10 @@ impl OdeMethod for Radau {
                 self.stages.solve(system, &self.last, (&self.jacobian, factors), self.estimated)
             });
             let Some(solved) = solved else {
-                self.retry_shorter(system, h)?;
                 rejected = true;
+                if !self.ends_at_break(system, (h, UNSOLVED), &mut end) {
+                    self.retry_shorter(system, h)?;
+                }
                 continue;
             };
             self.contraction = solved.contraction;
@@ -328,8 +331,11 @@ impl OdeMethod for Radau {
                 self.accept(system, h, end, error, by);
                 return Ok(());
             }
-            self.last.steps.rejected += 1;
             rejected = true;
+            if self.ends_at_break(system, (h, by), &mut end) {
+                continue;
+            }
+            self.last.steps.rejected += 1;
             self.h = if error.is_finite() { h * by.min(0.9) } else { 0.1 * h };
         }
     }

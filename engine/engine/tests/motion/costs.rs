@@ -147,7 +147,7 @@ fn a_looser_tolerance_costs_no_more_with_the_stiff_method() {
 }
 
 /// Three rods on hinges that are parallel to nothing, with a damper in the middle one.
-fn damped(damping: &str) -> Scene {
+pub fn damped(damping: &str) -> Scene {
     let axes = ["[0, 1, 1]", "[0.3, 1, -0.4]", "[0.1, -0.6, 1]"];
     let bodies: Vec<_> = (0..3).map(|k| {
         format!(r#"{{"name": "b{k}", "mass": 1, "inertia": {{"principal": [0.02, 0.09, 0.08]}}, "position": [{k}.5, 0, 0]}}"#)

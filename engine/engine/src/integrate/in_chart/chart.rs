@@ -52,7 +52,8 @@ pub enum IndependentCoordinates {
 /// Independent coordinates near one position.
 #[derive(Clone, Debug)]
 pub struct Chart {
-    numbers: Numbers,
+    /// What the coordinates are of.
+    pub numbers: Numbers,
     /// p₀.
     base: DVector<f64>,
     /// Z, n × f.

@@ -32,6 +32,11 @@ impl Numbers {
         Self::Joints { tree, unused, dynamics }
     }
 
+    /// Whether the tree alone decides how the mechanism moves: then there is nothing to solve for.
+    pub fn are_all_free(&self) -> bool {
+        matches!(self, Self::Joints { dynamics: Some(_), .. })
+    }
+
     /// How many they are.
     pub fn count(&self, mechanism: &Mechanism) -> usize {
         match self {

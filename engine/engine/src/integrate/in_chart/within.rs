@@ -120,6 +120,14 @@ impl OdeSystem for InCoordinates<'_> {
         }
     }
 
+    fn solves_nothing(&self) -> bool {
+        self.chart.numbers.are_all_free()
+    }
+
+    fn next_break(&self, t: f64) -> f64 {
+        self.mechanism.system.next_break(t)
+    }
+
     fn magnification(&self) -> f64 {
         let guess = self.at.and_then(|stage| self.at_stages.get(stage)).unwrap_or(self.guess);
         self.chart.magnification(guess)

@@ -15,7 +15,7 @@ pub struct Beside {
     pub stages: Stages,
     /// Whether the last step was taken with them.
     pub stepped: bool,
-    /// Weights of the other's stages in its polynomial at each of these.
+    /// Weights of the other's stages in its polynomial at each of these: a column for each.
     between: DMatrix<f64>,
     jacobian: RateJacobian,
     factors: Option<Factors>,
@@ -30,22 +30,19 @@ impl Beside {
             _ => &RADAU_17,
         };
         let stages = Stages::new(tables, n);
-        let mut between = DMatrix::zeros(tables.nodes.len(), known);
+        let mut between = DMatrix::zeros(known, tables.nodes.len());
         let mut weights = vec![0.0; known];
-        for (mut row, (node, _)) in between.row_iter_mut().zip(tables.nodes) {
+        for (mut column, (node, _)) in between.column_iter_mut().zip(tables.nodes) {
             other.method.collocation(*node, &mut weights);
-            row.copy_from_slice(&weights);
+            column.copy_from_slice(&weights);
         }
         Self { stages, stepped: false, between, jacobian: RateJacobian::new(n / 2), factors: None }
     }
 
     /// Takes the matrices of the other run for a step of size h. False if one is singular.
     fn factor(&mut self, jacobian: &RateJacobian, h: f64) -> bool {
-        let RateJacobian { stiffness, damping, .. } = jacobian;
-        let same = self.jacobian.stiffness == *stiffness && self.jacobian.damping == *damping;
+        let same = self.jacobian.copy_from(jacobian);
         if !same || self.factors.as_ref().is_none_or(|factors| factors.h != h) {
-            self.jacobian.stiffness.copy_from(stiffness);
-            self.jacobian.damping.copy_from(damping);
             self.factors = Factors::new(&self.jacobian, self.stages.method.tables, h);
         }
         self.factors.is_some()
@@ -60,8 +57,9 @@ impl Radau {
             return false;
         }
         let n = self.last.y.len();
-        let known = self.beside.take().filter(|beside| beside.between.ncols() == other.stages.z.len());
+        let known = self.beside.take().filter(|beside| beside.between.nrows() == other.stages.z.len());
         let mut beside = known.unwrap_or_else(|| Box::new(Beside::new(&other.stages, n)));
+        beside.stages.latest = other.stages.latest;
         let found = beside.factor(&other.jacobian, h) && self.find_beside(system, other, &mut beside);
         if found {
             beside.stepped = true;

@@ -80,14 +80,17 @@ pub static RADAU_17: RadauTables = RadauTables {
     ],
 };
 
+/// Most stages of these.
+pub const MOST_STAGES: usize = 9;
+
 /// A method with what follows from its tables.
 #[derive(Clone, Debug)]
 pub struct Method {
     /// The tables.
     pub tables: &'static RadauTables,
-    /// T, which turns A⁻¹ into its real block form T⁻¹ A⁻¹ T: a column for the real eigenvalue, two for each pair.
+    /// Tᵀ, where T turns A⁻¹ into its real block form T⁻¹ A⁻¹ T: a row for the real eigenvalue, two for each pair.
     pub t: DMatrix<f64>,
-    /// T⁻¹.
+    /// T⁻¹, transposed as well.
     pub t_inverse: DMatrix<f64>,
     /// Weights of the stages, less the start, in −p'(0), p being the collocation polynomial over the parts of the step: h ẋ at the start and −p'(0) add up to the error estimate.
     pub estimate: Vec<f64>,
@@ -100,11 +103,11 @@ impl Method {
         let mut t = DMatrix::zeros(s, s);
         let vector = |eigenvalue: Complex<f64>| eigenvector(tables, eigenvalue);
         for (row, x) in vector(Complex::new(tables.real, 0.0)).into_iter().enumerate() {
-            t[(row, 0)] = x.re;
+            t[(0, row)] = x.re;
         }
         for (pair, eigenvalue) in tables.pairs.iter().enumerate() {
             for (row, x) in vector(*eigenvalue).into_iter().enumerate() {
-                (t[(row, 1 + 2 * pair)], t[(row, 2 + 2 * pair)]) = (x.re, -x.im);
+                (t[(1 + 2 * pair, row)], t[(2 + 2 * pair, row)]) = (x.re, -x.im);
             }
         }
         let t_inverse = t.clone().try_inverse().unwrap_or_else(|| DMatrix::identity(s, s));

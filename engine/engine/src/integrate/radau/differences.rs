@@ -6,21 +6,32 @@ use super::stages::scale;
 use crate::integrate::step::StopReason;
 use triad_dynamics::ode::OdeSystem;
 
-/// Part of a step at which its Jacobian matrix is taken: it differs least from those of all stages there.
+/// Part of a step at which its Jacobian matrix is taken if none is known before: it differs least from those of all stages there.
 const MIDDLE: f64 = 0.5;
+/// The same where one is, on open trees: between the two it is nearly linear in time. Where loops are solved for, differences hold what the
+/// search leaves, and coordinates are others before long.
+const END: f64 = 1.0;
 
 impl Radau {
-    /// Columns of ∂η̈/∂(η, η̇) by differences, in the middle of the step that is to come where the last one foresees it, and
-    /// where there are states, else at its start.
+    /// Columns of ∂η̈/∂(η, η̇) by differences, in the middle of the step that is to come, or at its end, where the last one foresees
+    /// it, and where there are states, else at its start.
     pub(super) fn differentiate(&mut self, system: &mut impl OdeSystem) -> Result<(), StopReason> {
         let mut at = self.last.y.clone();
-        let foreseen = self.stages.foresee(&self.last, self.h, MIDDLE, &mut at)
-            && self.differentiate_at(system, self.last.t + MIDDLE * self.h, &at);
+        let follows = system.solves_nothing();
+        let part = if follows && self.jacobian.valid { END } else { MIDDLE };
+        let start = self.last.t;
+        let [mut t, middle] = [part, MIDDLE].map(|part| start + part * self.h);
+        let foreseen =
+            self.stages.foresee(&self.last, self.h, part, &mut at) && self.differentiate_at(system, t, &at);
         if !foreseen {
+            t = start;
             at.copy_from_slice(&self.last.y);
-            if !self.differentiate_at(system, self.last.t, &at) {
+            if !self.differentiate_at(system, t, &at) {
                 return Err(self.last.not_finite());
             }
+        }
+        if follows {
+            self.jacobian.take_at(t, middle, self.h);
         }
         (self.jacobian.fresh, self.jacobian.valid) = (true, true);
         self.factors = None;

@@ -1,18 +1,25 @@
 //! The linear systems of Newton's method: for second-order equations they have the size of η alone.
 
 use super::coefficients::RadauTables;
-use nalgebra::{Complex, DMatrix, DVector, Dyn, LU};
+use nalgebra::{Complex, DMatrix};
 
-type RealLu = LU<f64, Dyn, Dyn>;
-type ComplexLu = LU<Complex<f64>, Dyn, Dyn>;
+/// Step over the time between two matrices above which the change from the one to the other says nothing about the step.
+const REACH: f64 = 3.0;
 
-/// K = ∂η̈/∂η and C = ∂η̈/∂η̇: the lower half of the Jacobian matrix J of (η̇, η̈) by (η, η̇).
+/// K = ∂η̈/∂η and C = ∂η̈/∂η̇: the lower half of the Jacobian matrix J of (η̇, η̈) by (η, η̇), which changes along a step.
 #[derive(Clone, Debug)]
 pub struct RateJacobian {
-    /// K.
+    /// K and C at the time `at`.
     pub stiffness: DMatrix<f64>,
     /// C.
     pub damping: DMatrix<f64>,
+    /// The time, s.
+    at: f64,
+    /// K' and C', if the change is known.
+    change: [DMatrix<f64>; 2],
+    changes: bool,
+    /// The matrices that were taken last and before, with their times.
+    samples: [(f64, DMatrix<f64>, DMatrix<f64>); 2],
     /// Whether it was taken at the start of the present step.
     pub fresh: bool,
     /// Whether it belongs to the coordinates in use.
@@ -22,20 +29,119 @@ pub struct RateJacobian {
 impl RateJacobian {
     /// Allocates for f coordinates η.
     pub fn new(f: usize) -> Self {
-        Self { stiffness: DMatrix::zeros(f, f), damping: DMatrix::zeros(f, f), fresh: false, valid: false }
+        let zeros = || DMatrix::zeros(f, f);
+        let sample = || (f64::INFINITY, zeros(), zeros());
+        Self {
+            stiffness: zeros(),
+            damping: zeros(),
+            at: 0.0,
+            change: [zeros(), zeros()],
+            changes: false,
+            samples: [sample(), sample()],
+            fresh: false,
+            valid: false,
+        }
+    }
+
+    /// Takes what stands in K and C for those at time t, and finds those in the middle of a step of size h and their change from what
+    /// was taken before.
+    pub fn take_at(&mut self, t: f64, middle: f64, h: f64) {
+        let [(latest, ..), (before, ..)] = &mut self.samples;
+        if !self.valid {
+            (*latest, *before) = (f64::INFINITY, f64::INFINITY);
+        }
+        // Not so where a step is tried again.
+        if *latest < t {
+            self.samples.swap(0, 1);
+        }
+        let [(latest, stiffness, damping), (before, stiffness_before, damping_before)] = &mut self.samples;
+        *latest = t;
+        stiffness.copy_from(&self.stiffness);
+        damping.copy_from(&self.damping);
+        let span = t - *before;
+        self.changes = h <= REACH * span;
+        self.at = t;
+        if self.changes {
+            let [by_places, by_rates] = &mut self.change;
+            stiffness.sub_to(stiffness_before, by_places);
+            damping.sub_to(damping_before, by_rates);
+            *by_places /= span;
+            *by_rates /= span;
+            self.at = middle;
+            self.stiffness.zip_apply(by_places, |x, change| *x += (middle - t) * change);
+            self.damping.zip_apply(by_rates, |x, change| *x += (middle - t) * change);
+        }
+    }
+
+    /// Takes those of another run. Returns whether K and C were the same.
+    pub fn copy_from(&mut self, other: &Self) -> bool {
+        let same = self.stiffness == other.stiffness && self.damping == other.damping;
+        if !same {
+            self.stiffness.copy_from(&other.stiffness);
+            self.damping.copy_from(&other.damping);
+        }
+        for (change, other) in self.change.iter_mut().zip(&other.change) {
+            change.copy_from(other);
+        }
+        (self.at, self.changes) = (other.at, other.changes);
+        same
+    }
+
+    /// Whether its change is known.
+    pub fn changes(&self) -> bool {
+        self.changes
+    }
+
+    /// What it is at time t beyond K and C, times x: the accelerations.
+    pub fn changed(&self, t: f64, x: &[f64], out: &mut [f64]) {
+        let (places, rates) = x.split_at(out.len());
+        out.fill(0.0);
+        for (change, x) in self.change.iter().zip([places, rates]) {
+            add_product(change, x, out);
+        }
+        for out in out {
+            *out *= t - self.at;
+        }
     }
 }
 
-/// Factors of μ² I − μ C − K for the real μ and one μ of each complex pair, for one step size.
+/// Numbers of a product that are summed beside each other.
+const TOGETHER: usize = 4;
+
+/// Adds the matrix times x.
+fn add_product(matrix: &DMatrix<f64>, x: &[f64], out: &mut [f64]) {
+    let length = out.len().max(1);
+    let columns = || matrix.as_slice().chunks_exact(length).zip(x);
+    let (parts, rest) = out.as_chunks_mut::<TOGETHER>();
+    for (place, part) in parts.iter_mut().enumerate() {
+        let mut sum = *part;
+        for (column, x) in columns() {
+            let Some(column) = column[TOGETHER * place..].first_chunk::<TOGETHER>() else { continue };
+            sum.iter_mut().zip(column).for_each(|(sum, a)| *sum += a * x);
+        }
+        *part = sum;
+    }
+    if rest.is_empty() {
+        return;
+    }
+    let done = length - rest.len();
+    for (column, x) in columns() {
+        rest.iter_mut().zip(&column[done..]).for_each(|(out, a)| *out += a * x);
+    }
+}
+
+/// Inverses of μ² I − μ C − K for the real μ and one μ of each complex pair, for one step size: mechanisms that are solved so have few
+/// freedoms, and a product takes less than two triangular solutions.
 #[derive(Clone, Debug)]
 pub struct Factors {
     /// The step size, s.
     pub h: f64,
-    real: RealLu,
-    pairs: Vec<ComplexLu>,
-    /// The halves a of solutions.
-    half: DVector<f64>,
-    half_pair: DVector<Complex<f64>>,
+    real: DMatrix<f64>,
+    /// Real parts of numbers stand before imaginary ones.
+    pairs: Vec<DMatrix<f64>>,
+    /// The halves a of solutions, and their right-hand sides.
+    half: Vec<f64>,
+    right: Vec<f64>,
 }
 
 impl Factors {
@@ -47,52 +153,72 @@ impl Factors {
     ) -> Option<Self> {
         let f = stiffness.nrows();
         let mu = tables.real / h;
-        let real = (DMatrix::from_diagonal_element(f, f, mu * mu) - damping * mu - stiffness).lu();
+        let real =
+            (DMatrix::from_diagonal_element(f, f, mu * mu) - damping * mu - stiffness).try_inverse()?;
         let pairs = tables.pairs.iter().map(|pair| {
             let mu = pair / h;
             let matrix = DMatrix::from_fn(f, f, |i, j| {
                 let unit = if i == j { mu * mu } else { Complex::new(0.0, 0.0) };
                 unit - mu * damping[(i, j)] - stiffness[(i, j)]
             });
-            matrix.lu()
+            let inverse = matrix.try_inverse()?;
+            Some(DMatrix::from_fn(2 * f, 2 * f, |i, j| match (inverse[(i % f, j % f)], i < f, j < f) {
+                (x, true, true) | (x, false, false) => x.re,
+                (x, true, false) => -x.im,
+                (x, false, true) => x.im,
+            }))
         });
-        let pairs: Vec<ComplexLu> = pairs.collect();
-        let regular = real.is_invertible() && pairs.iter().all(ComplexLu::is_invertible);
-        regular.then(|| Self { h, real, pairs, half: DVector::zeros(f), half_pair: DVector::zeros(f) })
+        let pairs = pairs.collect::<Option<_>>()?;
+        Some(Self { h, real, pairs, half: vec![0.0; 2 * f], right: vec![0.0; 2 * f] })
     }
 
     /// (μ I − J)⁻¹ r with the real μ, in place. From the halves of (μ I − J)(a, b) = r:
     /// b = μ a − r_a, (μ² − μ C − K) a = r_b + (μ − C) r_a.
-    pub fn solve_real(&mut self, jacobian: &RateJacobian, tables: &RadauTables, r: &mut DVector<f64>) {
-        let (f, mu, a) = (r.len() / 2, tables.real / self.h, &mut self.half);
-        for i in 0..f {
-            a[i] = r[f + i] + r[i] * mu;
+    pub fn solve_real(&mut self, jacobian: &RateJacobian, tables: &RadauTables, r: &mut [f64]) {
+        let (f, mu) = (r.len() / 2, tables.real / self.h);
+        let (half, right) = (&mut self.half[..f], &mut self.right[..f]);
+        let (a, b) = r.split_at_mut(f);
+        right.fill(0.0);
+        add_product(&jacobian.damping, a, right);
+        for (right, (a, b)) in right.iter_mut().zip(a.iter().zip(&*b)) {
+            *right = b + mu * a - *right;
         }
-        a.gemv(-1.0, &jacobian.damping, &r.rows(0, f), 1.0);
-        self.real.solve_mut(a);
-        for i in 0..f {
-            (r[i], r[f + i]) = (a[i], a[i] * mu - r[i]);
+        half.fill(0.0);
+        add_product(&self.real, right, half);
+        for (half, (a, b)) in half.iter().zip(a.iter_mut().zip(b)) {
+            (*a, *b) = (*half, mu * half - *a);
         }
     }
 
-    /// The same with the complex μ of a pair.
+    /// The same with the complex μ of a pair: `r` has the real parts, `i` the imaginary ones.
     pub fn solve_pair(
         &mut self,
         jacobian: &RateJacobian,
         tables: &RadauTables,
         pair: usize,
-        r: &mut DVector<Complex<f64>>,
+        [r, i]: [&mut [f64]; 2],
     ) {
-        let (f, mu, a) = (r.len() / 2, tables.pairs[pair] / self.h, &mut self.half_pair);
-        for i in 0..f {
-            a[i] = r[f + i] + r[i] * mu;
-            for j in 0..f {
-                a[i] -= r[j] * jacobian.damping[(i, j)];
-            }
+        let (f, mu) = (r.len() / 2, tables.pairs[pair] / self.h);
+        let Self { half, right, pairs, .. } = self;
+        let ((ra, rb), (ia, ib)) = (r.split_at_mut(f), i.split_at_mut(f));
+        right.fill(0.0);
+        let (rr, ri) = right.split_at_mut(f);
+        add_product(&jacobian.damping, ra, rr);
+        add_product(&jacobian.damping, ia, ri);
+        for (right, ((ra, ia), rb)) in rr.iter_mut().zip(ra.iter().zip(&*ia).zip(&*rb)) {
+            *right = rb + mu.re * ra - mu.im * ia - *right;
         }
-        self.pairs[pair].solve_mut(a);
-        for i in 0..f {
-            (r[i], r[f + i]) = (a[i], a[i] * mu - r[i]);
+        for (right, ((ra, ia), ib)) in ri.iter_mut().zip(ra.iter().zip(&*ia).zip(&*ib)) {
+            *right = ib + mu.re * ia + mu.im * ra - *right;
+        }
+        half.fill(0.0);
+        add_product(&pairs[pair], right, half);
+        let (hr, hi) = half.split_at(f);
+        for ((hr, hi), (a, b)) in hr.iter().zip(hi).zip(ra.iter_mut().zip(rb)) {
+            (*a, *b) = (*hr, mu.re * hr - mu.im * hi - *a);
+        }
+        for ((hr, hi), (a, b)) in hr.iter().zip(hi).zip(ia.iter_mut().zip(ib)) {
+            (*a, *b) = (*hi, mu.re * hi + mu.im * hr - *a);
         }
     }
 }

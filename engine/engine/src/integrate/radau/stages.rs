@@ -1,12 +1,13 @@
 //! The stages of a step and Newton's method for them, in the coordinates in which A⁻¹ falls into blocks.
 
 mod beside;
+mod correction;
 
-use super::coefficients::{Method, RADAU_9, RadauTables};
+use super::coefficients::{MOST_STAGES, Method, RADAU_9, RadauTables};
 use super::linear::{Factors, RateJacobian};
 use super::updates::Updates;
 use crate::integrate::step::StepRecord;
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::DMatrix;
 use triad_dynamics::ode::OdeSystem;
 
 /// Rounding of the stages to which Newton's method goes on, and below which it may end where its corrections shrink no further.
@@ -45,16 +46,19 @@ pub struct Stages {
     /// ẋ at the stages, f, and T⁻¹ f.
     f: Vec<Vec<f64>>,
     forward: Vec<Vec<f64>>,
+    /// Accelerations by what the Jacobian matrices of the stages have beside the common one, times the correction; and T⁻¹ times these.
+    changed: Vec<Vec<f64>>,
+    beyond: Vec<Vec<f64>>,
     /// Power at the stages, W, and at those of the last accepted step; zero where nothing changes the energy.
     power: Vec<f64>,
     power_old: Vec<f64>,
     trial: Vec<f64>,
-    real: DVector<f64>,
-    pair: DVector<Complex<f64>>,
     weights: Vec<f64>,
     /// One by the error that each number may have.
     scale: Vec<f64>,
     updates: Updates,
+    /// The last moment at which they are evaluated, s.
+    pub latest: f64,
     /// Whether one iteration more is made than the tolerance asks for.
     pub further: bool,
 }
@@ -70,15 +74,35 @@ pub fn scale(i: usize, n: usize, y: f64, estimated: f64) -> f64 {
     1.0 / (estimated * if 2 * i < n { 1.0 } else { 1.0 + y.abs() })
 }
 
-/// Each row of the matrix as the weights of a sum.
-fn combine(weights: &DMatrix<f64>, from: &[Vec<f64>], out: &mut [Vec<f64>]) {
-    for (row, out) in out.iter_mut().enumerate() {
-        out.fill(0.0);
-        for (column, from) in from.iter().enumerate() {
-            let weight = weights[(row, column)];
-            out.iter_mut().zip(from).for_each(|(out, x)| *out += weight * x);
+/// Numbers that are summed beside each other.
+const TOGETHER: usize = 4;
+
+/// Each column of the matrix as the weights of a sum.
+fn combine<'a>(
+    weights: &DMatrix<f64>,
+    from: &(impl Iterator<Item = &'a [f64]> + Clone),
+    out: &mut [Vec<f64>],
+) {
+    let n = out.first().map_or(0, Vec::len);
+    for start in (0..n).step_by(TOGETHER) {
+        let range = start..n.min(start + TOGETHER);
+        let mut parts = [[0.0; TOGETHER]; MOST_STAGES];
+        for (part, from) in parts.iter_mut().zip(from.clone()) {
+            part[..range.len()].copy_from_slice(&from[range.clone()]);
+        }
+        for (weights, out) in weights.as_slice().chunks_exact(weights.nrows()).zip(&mut *out) {
+            let mut sum = [0.0; TOGETHER];
+            for (weight, part) in weights.iter().zip(&parts) {
+                sum.iter_mut().zip(part).for_each(|(sum, x)| *sum += weight * x);
+            }
+            out[range.clone()].copy_from_slice(&sum[..range.len()]);
         }
     }
+}
+
+/// The rows of all stages.
+fn rows(stages: &[Vec<f64>]) -> impl Iterator<Item = &[f64]> + Clone {
+    stages.iter().map(Vec::as_slice)
 }
 
 impl Stages {
@@ -86,7 +110,7 @@ impl Stages {
     pub fn new(tables: &'static RadauTables, n: usize) -> Self {
         let method = Method::new(tables);
         let s = method.stages();
-        let zeros = || vec![vec![0.0; n]; s];
+        let [zeros, halves] = [n, n / 2].map(|n| move || vec![vec![0.0; n]; s]);
         Self {
             method,
             z: zeros(),
@@ -94,14 +118,15 @@ impl Stages {
             w: zeros(),
             f: zeros(),
             forward: zeros(),
+            changed: halves(),
+            beyond: halves(),
             power: vec![0.0; s],
             power_old: vec![0.0; s],
             trial: vec![0.0; n],
-            real: DVector::zeros(n),
-            pair: DVector::zeros(n),
             weights: vec![0.0; s],
             scale: Vec::with_capacity(n),
             updates: Updates::new(s * n),
+            latest: f64::INFINITY,
             further: false,
         }
     }
@@ -184,7 +209,7 @@ impl Stages {
         if !self.evaluate(system, last, factors.h, first) {
             return None;
         }
-        self.correct(jacobian, factors);
+        self.correct(last, jacobian, factors);
         let numbers = self.scale.len() as f64 * self.z.len() as f64;
         Some(self.updates.improve(&self.scale) / numbers.sqrt())
     }
@@ -194,12 +219,17 @@ impl Stages {
         for stage in 0..self.z.len() {
             self.set_trial(last, stage);
             system.begin_stage(stage, first);
-            system.rhs(last.t + self.method.tables.nodes[stage].0 * h, &self.trial, &mut self.f[stage]);
+            system.rhs(self.time(last, h, stage), &self.trial, &mut self.f[stage]);
             if !self.f[stage].iter().all(|f| f.is_finite()) {
                 return false;
             }
         }
         true
+    }
+
+    /// When a stage is.
+    fn time(&self, last: &StepRecord, h: f64, stage: usize) -> f64 {
+        (last.t + self.method.tables.nodes[stage].0 * h).min(self.latest)
     }
 
     fn set_trial(&mut self, last: &StepRecord, stage: usize) {
@@ -220,7 +250,7 @@ impl Stages {
         for stage in 0..self.z.len() {
             self.set_trial(last, stage);
             system.begin_stage(stage, false);
-            let time = last.t + self.method.tables.nodes[stage].0 * h;
+            let time = self.time(last, h, stage);
             self.power[stage] = system.power_at(time, &self.trial).unwrap_or(0.0);
         }
         self.method.through(0.0, &mut self.weights);
@@ -249,30 +279,6 @@ impl Stages {
         work * x * h
     }
 
-    /// The correction of all stages by Newton's method, as one of w.
-    fn correct(&mut self, jacobian: &RateJacobian, factors: &mut Factors) {
-        let Self { method, f, w, forward, real, pair, updates, .. } = self;
-        let (h, tables, n) = (factors.h, method.tables, real.len());
-        combine(&method.t_inverse, f, forward);
-        let correction = updates.next();
-        for i in 0..n {
-            real[i] = forward[0][i] - tables.real / h * w[0][i];
-        }
-        factors.solve_real(jacobian, tables, real);
-        correction[..n].copy_from_slice(real.as_slice());
-        for (place, eigenvalue) in tables.pairs.iter().enumerate() {
-            let (k, mu) = (1 + 2 * place, eigenvalue / h);
-            for i in 0..n {
-                pair[i] =
-                    Complex::new(forward[k][i], forward[k + 1][i]) - mu * Complex::new(w[k][i], w[k + 1][i]);
-            }
-            factors.solve_pair(jacobian, tables, place, pair);
-            for i in 0..n {
-                (correction[k * n + i], correction[(k + 1) * n + i]) = (pair[i].re, pair[i].im);
-            }
-        }
-    }
-
     /// Applies the improved correction.
     fn apply(&mut self) {
         let n = self.trial.len();
@@ -280,7 +286,7 @@ impl Stages {
         for (w, correction) in self.w.iter_mut().zip(correction.chunks_exact(n)) {
             w.iter_mut().zip(correction).for_each(|(w, correction)| *w += correction);
         }
-        combine(&self.method.t, &self.w, &mut self.z);
+        combine(&self.method.t, &rows(&self.w), &mut self.z);
     }
 
     /// First stages: from the polynomial of the last step, or none.
@@ -303,7 +309,7 @@ impl Stages {
 
     /// w = T⁻¹ z.
     fn turn_over(&mut self) {
-        combine(&self.method.t_inverse, &self.z, &mut self.w);
+        combine(&self.method.t_inverse, &rows(&self.z), &mut self.w);
     }
 
     /// Adds to the end of the last step what its polynomial foresees for the part `part` of a step of size h, if that is not too far.

@@ -1,6 +1,6 @@
 //! The stages of a step that another run has taken with fewer of them.
 
-use super::{DIVERGING, DIVERGING_AT_FIRST, ROUNDING, Stages, combine};
+use super::{DIVERGING, DIVERGING_AT_FIRST, ROUNDING, Stages, combine, rows};
 use crate::integrate::radau::linear::{Factors, RateJacobian};
 use crate::integrate::step::StepRecord;
 use nalgebra::DMatrix;
@@ -30,7 +30,7 @@ impl Stages {
         tolerance: f64,
     ) -> bool {
         let enough = (LEFT * tolerance).max(LEAST);
-        combine(between, &other.z_old, &mut self.z);
+        combine(between, &rows(&other.z_old), &mut self.z);
         self.turn_over();
         self.set_scale(last, 1.0);
         self.updates.restart();
