@@ -10,6 +10,9 @@ use triad_dynamics::state::{BodyFrame, State};
 /// Part of the errors of all kinetic and potential energies below which they are not taken to cancel.
 const CANCELLED: f64 = 0.05;
 
+/// Roundings of what forces do over the length of the mechanism below which moments are nothing but that, and forces likewise.
+const NOTHING: f64 = 100.0 * f64::EPSILON;
+
 /// Estimated errors of the numbers of one state, each the largest over all bodies: what the run has collected since its start,
 /// not what one step adds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -31,11 +34,11 @@ pub struct ErrorEstimate {
 pub struct ReactionErrors {
     /// Largest error of a force of a joint or driver, N.
     pub force: f64,
-    /// Largest of these forces, N.
+    /// Largest of these forces, N; zero if it is but rounding of moments.
     pub largest_force: f64,
     /// Largest error of a moment, N m.
     pub moment: f64,
-    /// Largest of these moments, N m.
+    /// Largest of these moments, N m; zero if it is but rounding of forces.
     pub largest_moment: f64,
 }
 
@@ -84,10 +87,17 @@ impl Simulation {
         }
         let [force, largest_force, moment, largest_moment] = squares.map(f64::sqrt);
         // Nor is a reaction better than its rounding.
-        let of_moments = largest_moment.max(self.system().length * largest_force);
+        let length = self.system().length;
+        let of_moments = largest_moment.max(length * largest_force);
         let [force, moment] =
             [(force, largest_force), (moment, of_moments)].map(|(error, of)| error.max(f64::EPSILON * of));
-        Some(ReactionErrors { force, largest_force, moment, largest_moment })
+        let unless_rounding = |largest: f64, of: f64| if largest > NOTHING * of { largest } else { 0.0 };
+        Some(ReactionErrors {
+            force,
+            largest_force: unless_rounding(largest_force, largest_moment / length),
+            moment,
+            largest_moment: unless_rounding(largest_moment, length * largest_force),
+        })
     }
 
     /// From when on the error is not known, s: it has grown so far that it is no longer small against the mechanism, or the second
