@@ -1,4 +1,4 @@
-//! The correction of all stages by an iteration of Newton's method — eq. (10.6): with the inverses of one Jacobian matrix, and once more
+//! The correction of all stages by an iteration of Newton's method — eq. (10.6): with the factors of one Jacobian matrix, and once more
 //! with what those of the stages have beside it, as far as that is linear in time.
 
 use super::{Stages, combine, rows};
