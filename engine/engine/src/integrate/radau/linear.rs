@@ -168,7 +168,7 @@ impl Factors {
         let pairs: Vec<ComplexLu> = pairs.collect();
         let regular = real.is_invertible() && pairs.iter().all(ComplexLu::is_invertible);
         let (right, half, half_pair) = (vec![0.0; 2 * f], DVector::zeros(f), DVector::zeros(f));
-        regular.then(|| Self { h, real, pairs, right, half, half_pair })
+        regular.then_some(Self { h, real, pairs, right, half, half_pair })
     }
 
     /// (μ I − J)⁻¹ r with the real μ, in place. From the halves of (μ I − J)(a, b) = r:
