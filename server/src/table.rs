@@ -4,14 +4,14 @@ use std::io::{self, Write};
 
 use axum::http::StatusCode;
 use triad_engine::run::{Column, Outputs, Simulation, append_row};
-use triad_engine::scene::{OutputKind, Settings};
+use triad_engine::scene::Settings;
 use triad_lab::csv::quoted;
 
 use crate::problem::Problem;
 
 /// Refuses to write errors that are not estimated; `hint` says what lets them be.
 pub fn with_errors(settings: &Settings, hint: &str) -> Result<(), Problem> {
-    if settings.error_estimate || settings.outputs.iter().all(|output| output.kind != OutputKind::Errors) {
+    if settings.error_estimate || !settings.tells_errors() {
         return Ok(());
     }
     let detail = "the outputs hold errors, but the run carries no estimate of them along";

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use std::path::Path;
 use triad_engine::catalogue::{self, ENTRIES};
 use triad_engine::run::Simulation;
-use triad_engine::scene::{self, Coordinates, IntegratorKind, Output, OutputKind, Scene, Skip};
+use triad_engine::scene::{self, Coordinates, IntegratorKind, Output, Scene, Skip};
 
 /// How a scene is named: `name` (built in, or a file), `path` (a file) or `json` (its text).
 pub fn read(kind: &str, text: &str) -> Result<Scene, Refusal> {
@@ -109,7 +109,7 @@ impl Options {
             let read =
                 |word: &String| word.parse::<Output>().map_err(|error| Refusal::word("outputs", word, error));
             settings.outputs = outputs.iter().map(read).collect::<Result<_, _>>()?;
-            if !settings.error_estimate && settings.outputs.iter().any(|one| one.kind == OutputKind::Errors) {
+            if !settings.error_estimate && settings.tells_errors() {
                 return Err(Refusal::new(
                     "no-errors",
                     "the outputs hold errors, but the run carries no estimate of them along",

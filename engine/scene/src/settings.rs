@@ -1,6 +1,6 @@
 //! How to run a scene.
 
-use crate::outputs::Output;
+use crate::outputs::{Output, OutputKind};
 use crate::text::words;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -32,6 +32,13 @@ pub struct Settings {
     /// What a table of the run holds besides the time.
     #[serde(skip_serializing_if = "Output::are_usual")]
     pub outputs: Vec<Output>,
+}
+
+impl Settings {
+    /// Whether its outputs hold estimated errors.
+    pub fn tells_errors(&self) -> bool {
+        self.outputs.iter().any(|output| output.kind == OutputKind::Errors)
+    }
 }
 
 impl Default for Settings {

@@ -37,6 +37,13 @@ pub struct ForceLaw {
     pub friction: Option<Friction>,
 }
 
+impl ForceLaw {
+    /// The first moment after t at which what is prescribed has another piece, s, or infinity.
+    pub fn next_break(&self, t: f64) -> f64 {
+        self.drive.as_ref().map_or(f64::INFINITY, |drive| drive.next_break(t))
+    }
+}
+
 /// What a load does; local coordinates are in principal frames.
 #[derive(Clone, Debug)]
 pub enum LoadKind {

@@ -18,7 +18,7 @@ impl SystemLoad {
         match self {
             Self::Force { force: curve, .. } | Self::Moment { moment: curve, .. } => curve.next_break(t),
             Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. } => {
-                law.drive.as_ref().map_or(f64::INFINITY, |drive| drive.next_break(t))
+                law.next_break(t)
             }
         }
     }

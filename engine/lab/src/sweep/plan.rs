@@ -136,8 +136,7 @@ impl SweepPlan {
     /// which takes one part in a hundred of what a run costs.
     pub fn with_errors(mut scene: Scene) -> Self {
         let settings = &mut scene.simulation;
-        if settings.error_estimate && settings.outputs.iter().all(|output| output.kind != OutputKind::Errors)
-        {
+        if settings.error_estimate && !settings.tells_errors() {
             settings.outputs.push(OutputKind::Errors.into());
         }
         Self::new(scene)

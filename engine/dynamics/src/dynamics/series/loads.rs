@@ -138,10 +138,6 @@ impl LawSeries {
         }
     }
 
-    fn next_break(&self, t: f64) -> f64 {
-        self.law.drive.as_ref().map_or(f64::INFINITY, |drive| drive.next_break(t))
-    }
-
     /// The part of h within which friction is near its series. Far from rest tanh is constant to rounding
     /// and its series cannot foresee that it turns: there a step ends where the velocity comes near rest; within that
     /// range it keeps away from the poles of tanh.
@@ -227,7 +223,7 @@ impl Loads {
         let breaks = self.list.iter().map(|load| match load {
             Load::Given { curve, .. } => curve.next_break(t),
             Load::Spring { law, .. } | Load::Torsion { law, .. } | Load::Slider { law, .. } => {
-                law.next_break(t)
+                law.law.next_break(t)
             }
         });
         breaks.fold(f64::INFINITY, f64::min)

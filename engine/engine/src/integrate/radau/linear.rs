@@ -108,8 +108,8 @@ impl RateJacobian {
     }
 }
 
-/// Numbers of a product that are summed beside each other.
-const TOGETHER: usize = 4;
+/// Numbers that are summed beside each other.
+pub const TOGETHER: usize = 4;
 
 /// Adds the matrix times x.
 fn add_product(matrix: &DMatrix<f64>, x: &[f64], out: &mut [f64]) {

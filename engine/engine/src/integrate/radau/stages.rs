@@ -4,7 +4,7 @@ mod beside;
 mod correction;
 
 use super::coefficients::{MOST_STAGES, Method, RADAU_9, RadauTables};
-use super::linear::{Factors, RateJacobian};
+use super::linear::{Factors, RateJacobian, TOGETHER};
 use super::updates::Updates;
 use crate::integrate::step::StepRecord;
 use nalgebra::DMatrix;
@@ -73,9 +73,6 @@ fn reaches(last: &StepRecord, h: f64) -> bool {
 pub fn scale(i: usize, n: usize, y: f64, estimated: f64) -> f64 {
     1.0 / (estimated * if 2 * i < n { 1.0 } else { 1.0 + y.abs() })
 }
-
-/// Numbers that are summed beside each other.
-const TOGETHER: usize = 4;
 
 /// Each column of the matrix as the weights of a sum.
 fn combine<'a>(
