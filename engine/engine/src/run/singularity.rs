@@ -220,8 +220,8 @@ impl SingularityMonitor {
             samples[0].products.copy_from_slice(&history.pivot_products);
         }
         examiner.allocate(track.numbers(), samples[0].products.len());
-        history.note_largest(&samples[1].products);
-        samples[..2].iter_mut().for_each(|sample| sample.measure(&history.largest, step.floor()));
+        history.scales.raise(&samples[1].products);
+        samples[..2].iter_mut().for_each(|sample| sample.measure(&history.scales, step.floor()));
         examined.clear();
         let mut search = Search { step, track, found, history, examiner, samples, examined };
         if !search.shows_no_dip(overview) {
@@ -243,7 +243,7 @@ impl SingularityMonitor {
         integrator: &mut Integrator,
     ) -> Option<f64> {
         let Err(Unresolved { time, until }) = result else {
-            let largest = &self.islands[island].largest;
+            let largest = &self.islands[island].scales.largest;
             let least = (0..largest.len())
                 .filter(|&joint| largest[joint] > ZERO)
                 .map(|joint| root(&self.samples[1].products, largest, joint));

@@ -1,8 +1,10 @@
 //! What is known of the pivot products of an island from the steps so far.
 
+use super::sample::{Scales, single};
+
 /// Bound of the rate at which the distance from a singular configuration, as an angle, changes, relative to the pace of the
 /// fastest body.
-const RATE_BOUND: f64 = 5.0;
+const RATE_BOUND: f32 = 5.0;
 /// The same relative to the fastest change of that joint so far, which masses and lengths may make faster.
 const OBSERVED_RATE_BOUND: f64 = 2.0;
 /// Least turn of the rows in a step from which the rate of change of pivot products is taken, rad.
@@ -11,12 +13,12 @@ const MIN_TURN: f64 = 0.005;
 /// Pivot products of an island so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct IslandHistory {
-    /// Largest pivot product of each joint.
-    pub largest: Vec<f64>,
+    /// The largest pivot products, and what goes with them.
+    pub scales: Scales,
     /// Pivot products at the end of the last step.
     pub pivot_products: Vec<f64>,
     /// Bounds of how fast the distances of joints from a singular configuration change, as angles, for each radian that rows turn.
-    pub rate_bounds: Vec<f64>,
+    pub rate_bounds: Vec<f32>,
     /// How fast rows turned at the end of the last step, 1/s.
     pub pace: f64,
     /// Places of the island's joints and drivers in the mechanism.
@@ -26,25 +28,19 @@ pub(super) struct IslandHistory {
 impl IslandHistory {
     /// Whether no step was noted.
     pub(super) fn is_new(&self) -> bool {
-        self.largest.is_empty()
+        self.scales.largest.is_empty()
     }
 
     /// Starts from the pivot products at the start of the first step.
     pub(super) fn begin(&mut self, pivot_products: &[f64], pace: f64) {
-        (self.largest, self.pace) = (pivot_products.to_vec(), pace);
+        (self.scales, self.pace) = (Scales::new(pivot_products), pace);
         self.pivot_products = pivot_products.to_vec();
         self.rate_bounds = vec![RATE_BOUND; pivot_products.len()];
     }
 
-    pub(super) fn note_largest(&mut self, pivot_products: &[f64]) {
-        for (largest, product) in self.largest.iter_mut().zip(pivot_products) {
-            *largest = largest.max(*product);
-        }
-    }
-
     /// Notes how fast the root of a joint's pivot product changes for each radian that rows turn.
     pub(super) fn note_rate(&mut self, joint: usize, rate: f64) {
-        self.rate_bounds[joint] = self.rate_bounds[joint].max(OBSERVED_RATE_BOUND * rate);
+        self.rate_bounds[joint] = self.rate_bounds[joint].max(single(OBSERVED_RATE_BOUND * rate));
     }
 
     /// Notes a change of pivot products while rows turned by an angle.
@@ -52,10 +48,6 @@ impl IslandHistory {
         if turned < MIN_TURN {
             return;
         }
-        let bounds = self.rate_bounds.iter_mut().zip(&self.largest);
-        for (((bound, largest), from), to) in bounds.zip(from).zip(to) {
-            let root = |product: f64| (product / largest).max(0.0).sqrt();
-            *bound = bound.max(OBSERVED_RATE_BOUND * ((root(*to) - root(*from)).abs() / turned));
-        }
+        self.scales.raise_rates(&mut self.rate_bounds, [from, to], turned, OBSERVED_RATE_BOUND);
     }
 }

@@ -1,7 +1,7 @@
 //! Samples at four times of a step at once, where they cost hardly more than one: most steps that turn far are shown by them to have no
 //! dip. Those that are not are searched from the beginning.
 
-use super::sample::Sample;
+use super::sample::{Sample, any_within, single};
 use super::search::Search;
 
 /// Times that are looked at at once.
@@ -12,9 +12,7 @@ const ROUNDS: usize = 3;
 const MOST: usize = 7 * AT_ONCE;
 /// Lower bound of the distance of a joint from a singular configuration, as an angle, rad, that all dips are below that are to be
 /// looked at.
-const DIP: f64 = 0.101;
-/// The same below which a dip is so likely that the step had better be searched.
-const LOW: f64 = 0.25;
+const DIP: f32 = 0.101;
 
 /// Samples inside a step, and all times that are known.
 #[derive(Clone, Debug)]
@@ -47,7 +45,7 @@ impl Search<'_> {
         if !self.is_suspicious(start, end) {
             return true;
         }
-        if self.samples[..2].iter().any(is_low) {
+        if self.samples[..2].iter().any(|sample| sample.low) {
             return false;
         }
         let mut place = 0;
@@ -60,7 +58,7 @@ impl Search<'_> {
                 _ => &*samples[place - 2].angles,
             };
             let is_open = |[start, end]: &[(f64, usize); 2]| {
-                let turned = (end.0 - start.0) * self.step.pace;
+                let turned = single((end.0 - start.0) * self.step.pace);
                 is_open(angles(start.1), angles(end.1), &self.history.rate_bounds, turned)
             };
             let (mut parts, mut count) = ([[(0.0, 0); 2]; MOST + 1], 0);
@@ -82,9 +80,8 @@ impl Search<'_> {
                 self.examiner.count += AT_ONCE as u64;
                 for (k, time) in times.iter().enumerate() {
                     let sample = &mut samples[place];
-                    sample.products.iter_mut().zip(products).for_each(|(own, all)| *own = all[k]);
-                    sample.measure(&self.history.largest, self.step.floor());
-                    if is_low(sample) {
+                    sample.measure_one(products, k, &self.history.scales, self.step.floor());
+                    if sample.low {
                         return false;
                     }
                     known.push((*time, place + 2));
@@ -111,12 +108,6 @@ fn divide(parts: &[[(f64, usize); 2]], times: &mut [f64]) {
 }
 
 /// Whether some joint may be in a dip between two samples in which none is, while rows turn by an angle.
-fn is_open(from: &[f64], to: &[f64], rates: &[f64], turned: f64) -> bool {
-    let joints = from.iter().zip(to).zip(rates);
-    joints.fold(0, |any, ((low, high), rate)| any | u64::from(low + high <= 2.0 * DIP + rate * turned)) > 0
-}
-
-/// Whether some joint is in a dip, or probably near one.
-fn is_low(sample: &Sample) -> bool {
-    sample.angles.iter().fold(0, |any, angle| any | u64::from(*angle < LOW)) > 0
+fn is_open(from: &[f32], to: &[f32], rates: &[f32], turned: f32) -> bool {
+    any_within([from, to], rates, |low, high, rate| low + high <= 2.0 * DIP + rate * turned)
 }

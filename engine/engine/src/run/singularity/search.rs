@@ -3,7 +3,7 @@
 use super::found::{Doubtful, Found};
 use super::history::IslandHistory;
 use super::passage::{Dip, Examiner, Finding, root};
-use super::sample::{REDUNDANT, Sample};
+use super::sample::{REDUNDANT, Sample, any_within, single};
 use crate::integrate::Track;
 use std::f64::consts::PI;
 
@@ -16,7 +16,7 @@ pub(super) const SAMPLES: usize = MAX_DEPTH + 4;
 const NEAR: f64 = 0.1;
 const STEEP: f64 = 2.0;
 /// Lower bound of such a distance, as an angle, rad, from which on it is not near.
-const FAR: f64 = 0.1005;
+const FAR: f32 = 0.1005;
 /// Root of a pivot product, relative to the largest, below which a dip is looked at, and a joint has its zero at one.
 const DEEP: f64 = 0.1;
 /// Turn of the rows below which a part of a step is not divided, rad.
@@ -102,12 +102,12 @@ impl Search<'_> {
     /// Keeps what they say of each joint as well.
     fn sample(&mut self, t: f64, place: usize) {
         self.probe(t, place);
-        self.samples[place].measure(&self.history.largest, self.step.floor());
+        self.samples[place].measure(&self.history.scales, self.step.floor());
     }
 
     /// Square of the distance of a joint from a singular configuration, relative to its largest.
     fn square(&self, joint: usize, place: usize) -> f64 {
-        self.samples[place].products[joint] / self.history.largest[joint]
+        self.samples[place].products[joint] / self.history.scales.largest[joint]
     }
 
     /// Whether a dip was looked at that belongs to a time.
@@ -117,14 +117,11 @@ impl Search<'_> {
 
     /// Whether some joint may become dependent between two samples.
     pub(super) fn is_suspicious(&self, a: (f64, usize), b: (f64, usize)) -> bool {
-        let turned = (b.0 - a.0) * self.step.pace;
-        let [from, to] = [a, b].map(|end| &self.samples[end.1].angles);
-        let angles = from.iter().zip(to).zip(&self.history.rate_bounds);
-        // All of them at once, as in most cases it is none.
-        let may = |((low, high), rate): ((&f64, &f64), &f64)| {
-            u64::from(low + high <= widest(rate * turned, *low, *high))
-        };
-        angles.fold(0, |any, joint| any | may(joint)) > 0
+        let turned = single((b.0 - a.0) * self.step.pace);
+        let ends = [a, b].map(|end| &*self.samples[end.1].angles);
+        any_within(ends, &self.history.rate_bounds, |low, high, rate| {
+            low + high <= widest(rate * turned, low, high)
+        })
     }
 
     /// The joint that is most likely to become dependent between two samples; and its distances from that at both: zero there,
@@ -141,12 +138,12 @@ impl Search<'_> {
         let mut least = 1.0;
         let angles = from.angles.iter().zip(&to.angles);
         for (joint, ((low, high), rate)) in angles.zip(&self.history.rate_bounds).enumerate() {
-            let turn = rate * turned;
+            let turn = f64::from(*rate) * turned;
             // Most joints are far from it, and farther than the one found so far: exact arcsines cost more than all else here.
-            if low + high > least * widest(turn, *low, *high) {
+            if low + high > single(least * turn) * widest(1.0, *low, *high) {
                 continue;
             }
-            let part = |end: usize, sample: &Sample| match sample.root(joint, &self.history.largest) {
+            let part = |end: usize, sample: &Sample| match sample.root(joint, &self.history.scales.largest) {
                 root if known[end] && root < DEEP => PI,
                 root if root <= floor => 0.0,
                 root => libm::asin(root - floor),
@@ -273,13 +270,13 @@ impl Search<'_> {
         if self.found.is_known(island, dip.time, near) {
             return Ok(());
         }
-        let mut finding = self.examiner.examine(self.track, dip, &self.history.largest);
+        let mut finding = self.examiner.examine(self.track, dip, &self.history.scales.largest);
         let mut sharp = dip;
         if let Finding::Unresolved(_) = finding {
             sharp = self.sharpened(dip);
             dip.time = sharp.time;
             if sharp.root > 0.0 && sharp.root < COARSE * dip.root {
-                finding = self.examiner.examine(self.track, sharp, &self.history.largest);
+                finding = self.examiner.examine(self.track, sharp, &self.history.scales.largest);
             }
         }
         if matches!(finding, Finding::Unresolved(_)) && self.examiner.has_followed(self.track, sharp) {
@@ -320,15 +317,15 @@ impl Search<'_> {
     /// Whether a joint is about as near to losing its hold as that of a dip.
     fn loses_hold(&self, joint: usize, dip: Dip) -> bool {
         let products = &self.samples[self.samples.len() - 1].products;
-        self.history.largest[joint] > REDUNDANT
-            && root(products, &self.history.largest, joint) < DEEP.min(10.0 * dip.root.max(EXACT.0))
+        self.history.scales.largest[joint] > REDUNDANT
+            && root(products, &self.history.scales.largest, joint) < DEEP.min(10.0 * dip.root.max(EXACT.0))
     }
 }
 
 /// How far the distances of a joint from a singular configuration, between lower bounds of them at both ends, may come nearer to it and
 /// back while rows turn by an angle times its rate.
-fn widest(turn: f64, low: f64, high: f64) -> f64 {
-    turn * if low < FAR || high < FAR { STEEP } else { 1.0 }
+fn widest(turn: f32, low: f32, high: f32) -> f32 {
+    turn * if low < FAR || high < FAR { single(STEEP) } else { 1.0 }
 }
 
 /// A time near the best of three points, if that is an end of them, and the vertex of their parabola is too near it to be told
