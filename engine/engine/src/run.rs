@@ -298,7 +298,7 @@ impl Simulation {
             let Some(shorter) = singularities.step(mechanism, integrator) else { break };
             integrator.take_back(mechanism);
             until = shorter;
-            if self.before_branching.is_none() {
+            if self.singularities.is_resolving() && self.before_branching.is_none() {
                 self.before_branching = Some(Box::new(self.clone()));
             }
         }

@@ -250,6 +250,23 @@ fn explicit_methods_in_independent_coordinates_pass_all_windows() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// Rounding grows on the way past singular positions, and more with the number of windows: steps start far enough before them.
+#[test]
+fn forty_windows_in_a_row_are_passed_at_the_tightest_tolerances() {
+    let mut scene = catalogue::scene("n-four-bar:40").unwrap();
+    scene.simulation.error_estimate = false;
+    let mut before: Option<u64> = None;
+    for tolerance in [1e-9, 1e-10, 1e-11, 1e-12] {
+        let mut run = run(&scene, Taylor, tolerance);
+        run.advance_to(run.duration()).unwrap();
+        let Summary { steps, rejected, .. } = run.summary();
+        assert_eq!(run.singular_configurations().len(), 10, "{tolerance:.0e}");
+        assert!(before.is_none_or(|before| steps <= before * 13 / 10), "{tolerance:.0e}: {steps} steps");
+        assert!(rejected <= 10, "one for each position: {rejected}");
+        before = Some(steps);
+    }
+}
+
 /// `TRIAD_PASSAGES=10` takes all ten tolerances, and many more steps. Mechanisms without loops are not searched.
 #[test]
 fn every_built_in_scene_passes_what_there_is_by_every_integrator() {

@@ -107,6 +107,7 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     resolving: bool,
     /// Whether solutions are only corrections of a state, of which the next one takes out what rounding has left: they are not refined.
     corrects_only: bool,
+    expansion: Expansion,
     /// Whether the factor is that of the state, up to the last correction.
     factor_is_here: bool,
     /// Whether bodies have inertia regularization, which proximal steps take out again.
@@ -121,6 +122,17 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     transport: Option<Box<transport::Transport<L, B>>>,
     /// What Φ of each solver row is measured in, where it is measured, in the same order.
     row_sizes: Vec<f64>,
+}
+
+/// How the motion was expanded last.
+#[derive(Clone, Copy, Debug, Default)]
+struct Expansion {
+    /// Up to which order.
+    order: usize,
+    /// Whether rows that hardly hold were kept.
+    resolving: bool,
+    /// Where the step was taken back: whether its series still hold. S is not factored at the state then.
+    back: Option<bool>,
 }
 
 impl<const L: usize> Series<L> {
@@ -168,11 +180,10 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let prescribed = Prescribed::new(system, &place, &schur.factor, L, stride);
         let loads = Loads::new(system, &place, L, stride);
         let needs_values = rows.curved() || !angles.is_empty() || !loads.is_empty() || !prescribed.is_empty();
-        let exchanges = !system.is_conservative();
         Self {
             time: 0.0,
             next_break: f64::INFINITY,
-            power: vec![0.0; if exchanges { stride } else { 0 }],
+            power: vec![0.0; if system.is_conservative() { 0 } else { stride }],
             meter: None,
             angles,
             prescribed,
@@ -199,6 +210,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             regularized: false,
             resolving: false,
             corrects_only: false,
+            expansion: Expansion::default(),
             factor_is_here: false,
             regularizes_inertia: system.regularizes_inertia(),
             counters: Counters::default(),

@@ -356,7 +356,8 @@ impl Stepper for Explicit {
         // The last evaluation was at the end of the step.
         let pivot_products = Some(mechanism.elimination.pivot_products());
         let pace = state::fastest(&mechanism.system, y);
-        Some(IslandStep { island: 0, start: t - h, end: *t, pivot_products, constraints: None, pace })
+        let (start, constraints) = (t - h, None);
+        Some(IslandStep { island: 0, start, end: *t, pivot_products, constraints, pace, clearance: 0.0 })
     }
 
     fn can_retreat(&self) -> bool {

@@ -61,6 +61,9 @@ pub struct IslandStep<'a> {
     pub constraints: Option<&'a [usize]>,
     /// How fast the rows turn at its end, 1/s: see [`state::pace`].
     pub pace: f64,
+    /// Part of the step within which no singular configuration should lie behind its end: the next step, as long, would see rounding
+    /// grow on the way over it by more than the tolerance. Zero where that does not shorten steps.
+    pub clearance: f64,
 }
 
 /// What a run leaves out because nothing depends on it.
@@ -110,7 +113,16 @@ pub trait Stepper: Debug + Send + Sync {
     fn island_step<'a>(&'a self, mechanism: &'a Mechanism) -> Option<IslandStep<'a>> {
         let StepRecord { t, y, h, .. } = self.last();
         let pace = state::fastest(&mechanism.system, y);
-        Some(IslandStep { island: 0, start: t - h, end: *t, pivot_products: None, constraints: None, pace })
+        let (pivot_products, constraints) = (None, None);
+        Some(IslandStep {
+            island: 0,
+            start: t - h,
+            end: *t,
+            pivot_products,
+            constraints,
+            pace,
+            clearance: 0.0,
+        })
     }
 
     /// The path of that step, if the method has a way of its own to evaluate states on it.

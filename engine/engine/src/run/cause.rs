@@ -14,8 +14,8 @@ const AHEAD: [f64; 2] = [0.1, 0.01];
 const LOSING: f64 = 1e-4;
 /// Pivot product of a joint at the start below which the joint is named as the cause.
 const WEAK: f64 = 1e-7;
-/// Tolerance below which rounding near a singular position may be what a run stops at: forty windows in a row stop at 1e-12
-/// and go through at 1e-11.
+/// Tolerance below which rounding near a singular position may be what a run stops at: a hundred windows in a row stop at
+/// 1e-12 and go through at 3e-12.
 const TIGHT: f64 = 1e-11;
 
 impl Simulation {

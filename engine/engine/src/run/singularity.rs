@@ -24,7 +24,7 @@ use overview::Overview;
 use passage::{Examiner, root};
 use probe::{Path, Probe};
 use sample::Sample;
-use search::{SAMPLES, Search, StepData, Unresolved};
+use search::{Again, SAMPLES, Search, StepData};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::Rank;
 use triad_dynamics::constraints::violation;
@@ -126,7 +126,7 @@ impl SingularityMonitor {
     }
 
     /// Searches the step that was taken last. Returns the time at which it should have ended, if it passes a place where
-    /// branches of the motion come nearer to each other than it can tell: it is to be taken back.
+    /// branches of the motion come nearer to each other than it can tell, or ends too near before such a place: it is to be taken back.
     pub fn step(&mut self, mechanism: &mut Mechanism, integrator: &mut Integrator) -> Option<f64> {
         let mut probe = self.probe.take()?;
         let shorter = self.search(&mut probe, mechanism, integrator);
@@ -156,7 +156,7 @@ impl SingularityMonitor {
             return None;
         }
         let can_retreat = integrator.can_retreat();
-        let IslandStep { island, start, end, pace, pivot_products, constraints } =
+        let IslandStep { island, start, end, pace, pivot_products, constraints, clearance } =
             integrator.island_step(mechanism)?;
         if self.islands.len() <= island {
             self.islands.resize(island + 1, IslandHistory::default());
@@ -186,6 +186,7 @@ impl SingularityMonitor {
             violated: self.violated,
             may_shorten: can_retreat && !self.violated && !self.fixed && self.retreats < MAX_RETREATS,
             given_up: self.given_up,
+            clearance,
         };
         let result = match integrator.track() {
             Some(track) => self.look(track, data, pace, known),
@@ -195,13 +196,7 @@ impl SingularityMonitor {
     }
 
     /// Looks at the path of a step whose rows turn at a pace at its end, where pivot products may be known.
-    fn look(
-        &mut self,
-        track: &mut dyn Track,
-        step: StepData,
-        pace: f64,
-        known: bool,
-    ) -> Result<(), Unresolved> {
+    fn look(&mut self, track: &mut dyn Track, step: StepData, pace: f64, known: bool) -> Result<(), Again> {
         let Self { islands, found, examiner, samples, overview, examined, .. } = self;
         let StepData { island, start, end, .. } = step;
         let history = &mut islands[island];
@@ -224,8 +219,11 @@ impl SingularityMonitor {
         samples[..2].iter_mut().for_each(|sample| sample.measure(&history.scales, step.floor()));
         examined.clear();
         let mut search = Search { step, track, found, history, examiner, samples, examined };
-        if !search.shows_no_dip(overview) {
-            search.within((start, 0), (end, 1), 2)?;
+        if end > search.history.cleared {
+            if !search.shows_no_dip(overview) {
+                search.within((start, 0), (end, 1), 2)?;
+            }
+            search.keeps_clear()?;
         }
         let history = &mut islands[island];
         history.note_change(&samples[0].products, &samples[1].products, (end - start) * step.pace);
@@ -237,12 +235,12 @@ impl SingularityMonitor {
     /// Goes on, or has the step taken again.
     fn conclude(
         &mut self,
-        result: Result<(), Unresolved>,
+        result: Result<(), Again>,
         StepData { island, start, .. }: StepData,
         mechanism: &mut Mechanism,
         integrator: &mut Integrator,
     ) -> Option<f64> {
-        let Err(Unresolved { time, until }) = result else {
+        let Err(again) = result else {
             let largest = &self.islands[island].scales.largest;
             let least = (0..largest.len())
                 .filter(|&joint| largest[joint] > ZERO)
@@ -253,6 +251,14 @@ impl SingularityMonitor {
             }
             integrator.set_loose(self.resolving || !behind);
             return None;
+        };
+        let (time, until) = match again {
+            Again::Unresolved { time, until } => (time, until),
+            Again::TooNear(earlier) => {
+                self.islands[island].cleared = earlier;
+                self.found.forget_after(island, earlier);
+                return Some(earlier);
+            }
         };
         self.found.forget_after(island, start);
         self.retreats += 1;

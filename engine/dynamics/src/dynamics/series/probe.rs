@@ -4,7 +4,7 @@
 use super::expand::Value;
 use super::instants::Instants;
 use super::{Bodies, Series};
-use crate::newton::{Movable, Projectable, project_positions, project_velocities, rules};
+use crate::newton::{Movable, project_positions, project_velocities, rules};
 use crate::system::System;
 use pulp::{Arch, Simd, WithSimd};
 use triad_linalg::{larger, raise};
@@ -37,6 +37,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Whether rows that hardly hold are kept: see [`crate::dynamics::elimination::Elimination::set_resolving`].
     pub fn set_resolving(&mut self, resolving: bool) {
+        if self.resolving != resolving {
+            self.expansion.back = self.expansion.back.map(|_| false);
+        }
         self.resolving = resolving;
         if let Some(meter) = &mut self.meter {
             meter.set_resolving(resolving);
@@ -137,7 +140,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         self.schur.factor.raise_shares(joints, shares);
     }
 
-    /// Goes back to the start t of the last step, from which the series were expanded.
+    /// Goes back to the start t of the last step, from which the series were expanded. They serve the next step too, if they would be found
+    /// in the same way.
     pub fn go_back(&mut self, t: f64) {
         for (b, state) in self.state.iter_mut().enumerate() {
             state.copy_from_slice(&self.q[b * self.stride..b * self.stride + 2]);
@@ -146,7 +150,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             angle.state.reference = angle.theta[0];
         }
         self.set_time(t);
-        self.linearize();
+        self.expansion.back = Some(self.expansion.resolving == self.resolving);
         if let Some(transport) = &mut self.transport {
             transport.go_back(t);
         }

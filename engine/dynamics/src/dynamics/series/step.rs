@@ -160,14 +160,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let end = plan.end.min(self.next_break);
         let (start, left) = (self.time, end - self.time);
         let allowance = self.allowance(plan.tolerance);
-        // Between breakpoints, prescribed functions are polynomials of degree five: only terms of higher order than those of
-        // their accelerations show how well the series converge.
-        let expanded = self.expand(simd, plan.order, |s, k| {
-            end < plan.end
-                && !plan.dry_run
-                && k > MIN_ORDER
-                && s.reached(k - 1, allowance).min(s.reached(k, allowance)) >= left
-        });
+        let again = self.expand_unless_known(simd, plan, left, end < plan.end);
+        let expanded = self.expansion.order;
         self.find_power(expanded);
         let (natural, order) = self.reach(expanded, allowance);
         if plan.dry_run {
@@ -202,7 +196,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                     let proven = closed && !self.regularized && !self.rows_left_out;
                     let finite = self.is_finite();
                     self.complete_power(Taken { start, h, order, terms: expanded - 1 }, plan.tolerance);
-                    self.carry_over(start, h, order, plan.length, time == end && end < plan.end);
+                    self.carry_over(start, h, order, plan.length, time == end && end < plan.end, again);
                     let far = moved.is_nan() || moved > MAX_VIOLATION * plan.tolerance;
                     return SeriesStep {
                         h,
@@ -217,9 +211,36 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                     };
                 }
             }
+            // The end may have been tried, with what is prescribed there.
+            self.set_time(start);
             rejected += 1;
             h *= 0.5;
         }
+    }
+
+    /// Finds the series of a step, as far as what is left up to a breakpoint asks for, unless those of the step that was taken back still
+    /// hold. Returns whether they do.
+    #[inline(always)]
+    fn expand_unless_known<S: Simd>(&mut self, simd: S, plan: StepPlan, left: f64, breaks: bool) -> bool {
+        match self.expansion.back.take() {
+            Some(true) => return true,
+            Some(false) => {
+                self.linearize();
+                self.transport.iter_mut().for_each(|transport| transport.start_here());
+            }
+            None => {}
+        }
+        let allowance = self.allowance(plan.tolerance);
+        // Between breakpoints, prescribed functions are polynomials of degree five: only terms of higher order than those of
+        // their accelerations show how well the series converge.
+        self.expansion.order = self.expand(simd, plan.order, |s, k| {
+            breaks
+                && !plan.dry_run
+                && k > MIN_ORDER
+                && s.reached(k - 1, allowance).min(s.reached(k, allowance)) >= left
+        });
+        self.expansion.resolving = self.resolving;
+        false
     }
 
     /// Moves to the end of a step, factors S there and projects positions and velocities. Returns how far the positions were
@@ -345,56 +366,4 @@ fn power(x: f64, n: usize) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::Planar;
-    use super::*;
-    use crate::constraints::mechanism::Mechanism;
-    use crate::model::Model;
-    use crate::scene::catalogue;
-    use crate::system::{System, planar};
-
-    /// Products and sums are fused whether the processor does it or not.
-    #[test]
-    fn every_set_of_instructions_gives_the_same_bits() {
-        for name in ["spatial-chain:5", "spatial-slider-crank", "bricard", "heavy-top", "n-four-bar:2"] {
-            let scene = catalogue::scene(name).unwrap();
-            let mechanism = Mechanism::new(System::new(Model::new(&scene).unwrap()));
-            let system = &mechanism.system;
-            let mut y = vec![0.0; 2 * system.coordinates];
-            let (q, q_dot) = y.split_at_mut(system.coordinates);
-            system.start(q, q_dot);
-            let flat =
-                planar::recognize(system, q).ok().map(|plane| plane.reduce(system.clone(), q).unwrap());
-            assert_eq!(flat.is_some(), name == "n-four-bar:2");
-            match flat {
-                Some(flat) => compare(name, &flat, Series::<4, Planar<4>>::planar(&flat, 12, &[]), y),
-                None if name == "heavy-top" => compare(name, system, Series::single(system, 12, &[]), y),
-                None => compare(name, system, Series::<4>::new(system, 12, &[]), y),
-            }
-        }
-    }
-
-    fn compare<const L: usize, B: Bodies<L>>(
-        name: &str,
-        system: &System,
-        mut own: Series<L, B>,
-        mut y: Vec<f64>,
-    ) {
-        own.place(system, 0.0, &y);
-        own.linearize();
-        let mut plain = own.clone();
-        let plan = StepPlan { order: 12, tolerance: 1e-9, length: system.length, end: 1.0, dry_run: false };
-        for _ in 0..5 {
-            let taken = own.step(plan);
-            assert_eq!(taken.h.to_bits(), Step(&mut plain, plan).with_simd(pulp::Scalar::new()).h.to_bits());
-            for part in [Part::Linearize, Part::Correct(0), Part::Correct(1)] {
-                let moved = Call(&mut plain, part).with_simd(pulp::Scalar::new());
-                assert_eq!(own.call(part).to_bits(), moved.to_bits(), "{name}: {part:?}");
-            }
-        }
-        let mut other = y.clone();
-        own.store(system, &mut y);
-        plain.store(system, &mut other);
-        assert!(y.iter().zip(&other).all(|(a, b)| a.to_bits() == b.to_bits()), "{name}");
-    }
-}
+mod tests;

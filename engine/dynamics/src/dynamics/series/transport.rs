@@ -12,9 +12,9 @@ use super::step::Part;
 use super::{Bodies, Series};
 use crate::newton::Projectable;
 use crate::system::System;
-use differences::{Between, Differ, Missed, Size, moved, moved_both, value};
+use differences::{Between, Differ, Missed, Size, Within, moved, moved_both, value};
 use energy::Energy;
-use pulp::{Arch, Simd, WithSimd};
+use pulp::Arch;
 use std::mem::swap;
 use triad_linalg::larger;
 
@@ -85,16 +85,27 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     /// Adds what the step of size h from `start`, cut at order `order`, does to the error. At a breakpoint of a prescribed
-    /// function accelerations jump: those before it tell of the step.
-    pub(super) fn carry_over(&mut self, start: f64, h: f64, order: usize, length: f64, at_break: bool) {
+    /// function accelerations jump: those before it tell of the step. `again` is whether it is a part of the step that was taken back.
+    pub(super) fn carry_over(
+        &mut self,
+        start: f64,
+        h: f64,
+        order: usize,
+        length: f64,
+        at_break: bool,
+        again: bool,
+    ) {
         let Some(mut transport) = self.transport.take() else { return };
         if transport.lost.is_none() {
             transport.step = (order, h);
-            transport.carry(self, start, length);
+            if again {
+                transport.carry_again();
+            } else {
+                transport.carry(self, start, length);
+            }
             transport.add_local(self, length, at_break);
             transport.lost = (!transport.is_small(length)).then_some(start);
-            let [last, used] = &mut transport.factored;
-            used.copy_from_slice(last);
+            transport.start_here();
         }
         self.transport = Some(transport);
     }
@@ -136,26 +147,6 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 }
 
-/// The error of a bundle within a step, of which the step itself has added these parts to positions and velocities so far; to be compiled
-/// for each set of vector instructions.
-struct Within<'a, const L: usize, B: Bodies<L>> {
-    transport: &'a Transport<L, B>,
-    b: usize,
-    tau: f64,
-    weights: [f64; 2],
-}
-
-impl<const L: usize, B: Bodies<L>> WithSimd for Within<'_, L, B> {
-    type Output = [B::Natural; 2];
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> [B::Natural; 2] {
-        let Self { transport, b, tau, weights } = self;
-        let (carried, added) = (transport.at(b, tau), &transport.added[b]);
-        [0, 1].map(|k| moved::<L, B>(&carried[k], weights[k], &added[k]))
-    }
-}
-
 impl<const L: usize, B: Bodies<L>> Transport<L, B> {
     fn new(system: &System, series: &Series<L, B>) -> Self {
         let count = series.bundles.len();
@@ -184,7 +175,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         }
     }
 
-    /// Goes back to the start t of the last step, where S is factored again, with the error that the motion had there.
+    /// Goes back to the start t of the last step, with the error that the motion had there.
     pub fn go_back(&mut self, t: f64) {
         for b in 0..self.error.len() {
             self.error[b] = self.at(b, 0.0);
@@ -192,8 +183,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         }
         self.size = self.size_before;
         self.step.1 = 0.0;
-        let [last, used] = &mut self.factored;
-        used.copy_from_slice(last);
+        self.evaluated = None;
         self.lost = self.lost.filter(|lost| *lost < t);
     }
 
@@ -201,6 +191,12 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
     pub fn set_resolving(&mut self, resolving: bool) {
         self.twin.set_resolving(resolving);
         self.evaluated = None;
+    }
+
+    /// Takes note of that the next step begins with S as it was factored last.
+    pub fn start_here(&mut self) {
+        let [last, used] = &mut self.factored;
+        used.copy_from_slice(last);
     }
 
     /// Takes note of where S is factored.
@@ -239,6 +235,14 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             self.carry_part(series, DISTURBANCE * length / before, length);
             self.unfinished = false;
         }
+    }
+
+    /// Carries it over a part of the last step, by what was found of it.
+    fn carry_again(&mut self) {
+        for b in 0..self.arrived.len() {
+            self.arrived[b] = self.at(b, self.step.1);
+        }
+        self.unfinished &= self.last_terms() > UNFINISHED * self.worth;
     }
 
     /// Carries a part of the error. The whole error sees that S is not factored exactly at x; for a part of it S is disturbed likewise,

@@ -27,6 +27,9 @@ const MAX_BREAKPOINTS: usize = 100_000;
 /// Part of what is left to the end below which a step is the last, if the constraints cannot be satisfied at its end, or only
 /// after [`MANY_HALVINGS`]: from there on steps lead nowhere, and spoil the state.
 const MIN_PROGRESS: f64 = 1e-9;
+/// Rounding of the terms of a step, for each row of the solver. Those of order k grow with the k-th power of its size in distances of its
+/// start from a singular configuration: eq. (11.16).
+const ROUNDING: f64 = 1e-16;
 /// Number of halvings of a step, until the constraints can be satisfied at its end, from which on the step leads nowhere.
 const MANY_HALVINGS: u64 = 3;
 
@@ -182,7 +185,9 @@ impl IslandStepper {
         let length = self.own.as_deref().unwrap_or(whole).length;
         let (pivot_products, pace) = (Some(self.series.pivot_products()), self.series.pace(length));
         let (start, end, constraints) = (self.t_old, self.t, self.constraints.as_deref());
-        self.loops.then_some(IslandStep { island, start, end, pivot_products, constraints, pace })
+        let rounding = ROUNDING * self.rows as f64 / self.tolerance;
+        let clearance = libm::pow(rounding, (self.order_old as f64).recip());
+        self.loops.then_some(IslandStep { island, start, end, pivot_products, constraints, pace, clearance })
     }
 
     /// Whether its last step can be taken back.

@@ -19,6 +19,8 @@ pub(super) struct IslandHistory {
     pub pivot_products: Vec<f64>,
     /// Bounds of how fast the distances of joints from a singular configuration change, as angles, for each radian that rows turn.
     pub rate_bounds: Vec<f32>,
+    /// The end of a step that is a part of one that was searched, s.
+    pub cleared: f64,
     /// How fast rows turned at the end of the last step, 1/s.
     pub pace: f64,
     /// Places of the island's joints and drivers in the mechanism.
@@ -35,6 +37,7 @@ impl IslandHistory {
     pub(super) fn begin(&mut self, pivot_products: &[f64], pace: f64) {
         (self.scales, self.pace) = (Scales::new(pivot_products), pace);
         self.pivot_products = pivot_products.to_vec();
+        self.cleared = f64::NEG_INFINITY;
         self.rate_bounds = vec![RATE_BOUND; pivot_products.len()];
     }
 

@@ -38,16 +38,26 @@ const UNCERTAIN: f64 = 0.1;
 const BEHIND: f64 = 2e-3;
 /// Turn of the rows within which two dips are one, rad: a joint that has lost its hold has to turn before it does so again.
 const SAME: f64 = 0.02;
+/// Distance of a singular configuration behind the end of a step, by the ends of the step, in distances that are too near, below which it is
+/// looked at from nearer: this part of the step before its end. And by how much more a step ends before it than it must.
+const LIKELY: f64 = 2.0;
+const BESIDE: f64 = 0.05;
+const ROOM: f64 = 0.1;
 /// Turn of the rows from the start of a step to a dip below which the step is not shortened any more, rad.
 const NEAREST: f64 = 1e-8;
 
-/// A place where the step should not have passed as it did.
+/// Why a step is to be taken again, shorter.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Unresolved {
-    /// When, s.
-    pub time: f64,
-    /// Up to when a dip is the same place, s.
-    pub until: f64,
+pub(super) enum Again {
+    /// It should not have passed a place as it did.
+    Unresolved {
+        /// When, s.
+        time: f64,
+        /// Up to when a dip is the same place, s.
+        until: f64,
+    },
+    /// It ends too near before a singular configuration: the next step passes it well from this time on, s.
+    TooNear(f64),
 }
 
 /// What a search is given about the step.
@@ -68,6 +78,8 @@ pub(super) struct StepData {
     pub may_shorten: bool,
     /// Up to when that has led nowhere, s.
     pub given_up: f64,
+    /// Part of the step within which no singular configuration should lie behind its end.
+    pub clearance: f64,
 }
 
 impl StepData {
@@ -165,12 +177,7 @@ impl Search<'_> {
     /// # Errors
     ///
     /// The first place that the step must be shortened for.
-    pub(super) fn within(
-        &mut self,
-        a: (f64, usize),
-        b: (f64, usize),
-        place: usize,
-    ) -> Result<(), Unresolved> {
+    pub(super) fn within(&mut self, a: (f64, usize), b: (f64, usize), place: usize) -> Result<(), Again> {
         if place + 1 >= self.samples.len() || self.found.is_full() {
             return Ok(());
         }
@@ -259,8 +266,9 @@ impl Search<'_> {
     }
 
     /// Finds out what a dip is, and keeps it if it is a singular configuration.
-    fn judge(&mut self, mut dip: Dip) -> Result<(), Unresolved> {
-        let StepData { island, start, end, run_end, pace, zero, violated, may_shorten, given_up } = self.step;
+    fn judge(&mut self, mut dip: Dip) -> Result<(), Again> {
+        let StepData { island, start, end, run_end, pace, zero, violated, may_shorten, given_up, .. } =
+            self.step;
         let near = SAME / pace;
         if self.is_examined(dip.time) {
             return Ok(());
@@ -307,11 +315,43 @@ impl Search<'_> {
                 let joints = joints.map(|joint| places[joint]).collect();
                 self.found.doubt(Doubtful { time: dip.time, apart, joints, open }, near);
                 if open {
-                    return Err(Unresolved { time: dip.time, until: dip.time + near });
+                    return Err(Again::Unresolved { time: dip.time, until: dip.time + near });
                 }
             }
         }
         Ok(())
+    }
+
+    /// Whether the step ends well before or behind the next singular configuration. Steps that pass one start and end beside it: the
+    /// nearer, the more rounding grows on the way, and the shorter the next ones become.
+    ///
+    /// # Errors
+    ///
+    /// When it had better end.
+    pub(super) fn keeps_clear(&mut self) -> Result<(), Again> {
+        let StepData { start, end, run_end, may_shorten, clearance, .. } = self.step;
+        let size = end - start;
+        if !may_shorten || clearance == 0.0 || end >= run_end {
+            return Ok(());
+        }
+        let likely = self.ahead(0, size) < LIKELY * clearance * size;
+        if !likely {
+            return Ok(());
+        }
+        let beside = BESIDE * size;
+        self.sample(end - beside, 2);
+        let ahead = self.ahead(2, beside);
+        if ahead < clearance * size {
+            return Err(Again::TooNear(end + ahead - (clearance + ROOM) * size));
+        }
+        Ok(())
+    }
+
+    /// How long after the end of the step a joint may lose its hold, if its angle goes on as since a sample that long before, s.
+    fn ahead(&self, place: usize, since: f64) -> f64 {
+        let [from, to] = [place, 1].map(|place| &self.samples[place].angles);
+        let angles = from.iter().zip(to).filter(|(from, to)| to < from);
+        angles.fold(f64::INFINITY, |least, (from, to)| least.min(since * f64::from(to / (from - to))))
     }
 
     /// Whether a joint is about as near to losing its hold as that of a dip.

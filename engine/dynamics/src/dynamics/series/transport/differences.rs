@@ -1,5 +1,6 @@
 //! Sums and differences of states and of their series, compiled for each set of vector instructions.
 
+use super::Transport;
 use crate::dynamics::series::lanes::{difference_whole, largest, plus, plus_whole, raise_whole};
 use crate::dynamics::series::{Bodies, Series};
 use pulp::{Simd, WithSimd};
@@ -215,6 +216,26 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Missed<'_, L, B> {
             sizes[0].raise::<L, B>(&error[b]);
         }
         [sizes[0].proven::<L, B>(error), sizes[1]]
+    }
+}
+
+/// The error of a bundle within a step, of which the step itself has added these parts to positions and velocities so far; to be compiled
+/// for each set of vector instructions.
+pub(super) struct Within<'a, const L: usize, B: Bodies<L>> {
+    pub transport: &'a Transport<L, B>,
+    pub b: usize,
+    pub tau: f64,
+    pub weights: [f64; 2],
+}
+
+impl<const L: usize, B: Bodies<L>> WithSimd for Within<'_, L, B> {
+    type Output = [B::Natural; 2];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> [B::Natural; 2] {
+        let Self { transport, b, tau, weights } = self;
+        let (carried, added) = (transport.at(b, tau), &transport.added[b]);
+        [0, 1].map(|k| moved::<L, B>(&carried[k], weights[k], &added[k]))
     }
 }
 
