@@ -1,5 +1,31 @@
 //! First-order ordinary differential equations, the form in which integrators see a mechanism.
 
+/// States that are evaluated at once, and what is found there.
+#[derive(Debug)]
+pub struct Many<'a> {
+    /// The times, s.
+    pub times: &'a [f64],
+    /// The states y.
+    pub states: &'a [Vec<f64>],
+    /// ẏ.
+    pub rates: &'a mut [Vec<f64>],
+    /// Power of what changes the energy, W.
+    pub power: &'a mut [f64],
+    /// What they are.
+    pub what: What,
+}
+
+/// What several states are that are evaluated at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum What {
+    /// The stages of an implicit step, in their order.
+    Stages,
+    /// These as they were found: of their ẏ only that at the end is used.
+    FoundStages,
+    /// States beside each other, for differences.
+    Beside,
+}
+
 /// ẏ = f(t, y).
 pub trait OdeSystem {
     /// Writes ẏ = f(t, y). The result must depend on nothing but t and y.
@@ -9,6 +35,12 @@ pub trait OdeSystem {
     /// depends on x alone need not be found again.
     fn rhs_at_rates(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
         self.rhs(t, y, rate);
+    }
+
+    /// The same as [`OdeSystem::rhs`] at several states at once, each with its own time, and the power at each. False, and nothing is written,
+    /// if this is not quicker than one after the other. What is in place stays as it is.
+    fn rhs_of_many(&mut self, _of: Many) -> bool {
+        false
     }
 
     /// Says that the next evaluation is that of a stage of an implicit step, and whether it is the first one of the stage in this
@@ -62,6 +94,9 @@ impl<S: OdeSystem + ?Sized> OdeSystem for &mut S {
     }
     fn rhs_at_rates(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
         (**self).rhs_at_rates(t, y, rate);
+    }
+    fn rhs_of_many(&mut self, of: Many) -> bool {
+        (**self).rhs_of_many(of)
     }
     fn power_at(&mut self, t: f64, y: &[f64]) -> Option<f64> {
         (**self).power_at(t, y)

@@ -8,6 +8,8 @@ mod track;
 
 mod stepper;
 
+mod wide;
+
 mod explicit;
 mod radau;
 

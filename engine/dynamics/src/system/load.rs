@@ -190,7 +190,7 @@ impl ForceLaw {
     }
 
     /// Force or moment without that of the spring.
-    pub(crate) fn without_spring(&self, rate: f64, t: f64) -> f64 {
+    pub fn without_spring(&self, rate: f64, t: f64) -> f64 {
         let mut value = -self.damping * rate;
         if let Some(drive) = &self.drive {
             value += drive.at(t)[0];

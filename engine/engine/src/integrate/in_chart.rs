@@ -5,7 +5,9 @@ mod spatial;
 
 mod edge;
 mod tree;
+
 mod tree_dynamics;
+mod tree_lanes;
 
 mod numbers;
 

@@ -21,6 +21,7 @@ use super::step::{MIN_ERROR, SAFETY, StepRecord, StopReason, weighted_norm};
 use super::stepper::OdeMethod;
 use beside::Beside;
 pub use coefficients::{RADAU_5, RADAU_9, RADAU_13, RadauTables};
+use differences::BesideStates;
 use linear::{Factors, RateJacobian};
 use stages::{Stages, scale};
 use triad_dynamics::ode::OdeSystem;
@@ -80,7 +81,8 @@ pub struct Radau {
     trial_rate: Vec<f64>,
     defect: Vec<f64>,
     jacobian: RateJacobian,
-    factors: Option<Factors>,
+    beside_states: BesideStates,
+    factors: Factors,
     /// Ratio of successive corrections in the last step.
     contraction: f64,
     /// Size and error of the step before.
@@ -151,7 +153,8 @@ impl Radau {
             trial_rate: vec![0.0; n],
             defect: vec![0.0; n],
             jacobian: RateJacobian::new(n / 2),
-            factors: None,
+            beside_states: BesideStates::new(n),
+            factors: Factors::new(n / 2, tables),
             contraction: 1.0,
             before: None,
             beside: None,
@@ -196,6 +199,10 @@ impl Radau {
         }
         let time = self.last.end_of(h, end);
         system.begin_stage(self.stages.z.len() - 1, false);
+        if let Some(rate) = self.stages.rate_at(time) {
+            self.trial_rate.copy_from_slice(rate);
+            return system.reach(time, &self.trial);
+        }
         system.rhs(time, &self.trial, &mut self.trial_rate);
         self.trial_rate.iter().all(|x| x.is_finite())
     }
@@ -242,7 +249,7 @@ impl Radau {
 
     /// (μ I − J)⁻¹ (ẋ − p'(0) / h) with ẋ in `trial_rate`, the real μ and the slope p' of the stages. Returns its size.
     fn filtered_defect(&mut self) -> f64 {
-        let Some(factors) = &mut self.factors else { return f64::NAN };
+        let factors = &mut self.factors;
         let Stages { method, z, .. } = &self.stages;
         for i in 0..self.defect.len() {
             let slope: f64 = method.estimate.iter().zip(z).map(|(weight, z)| weight * z[i]).sum();
@@ -263,13 +270,12 @@ impl Radau {
 
     /// Factors for a step of size h.
     fn factor(&mut self, h: f64) -> Result<(), StopReason> {
-        if self.factors.as_ref().is_none_or(|factors| factors.h != h) {
-            self.factors = Factors::new(&self.jacobian, self.stages.method.tables, h);
-            if self.factors.is_none() {
-                return Err(self.last.not_finite());
-            }
+        let known = self.factors.h == h;
+        if known || self.factors.factor(&self.jacobian, self.stages.method.tables, h) {
+            Ok(())
+        } else {
+            Err(self.last.not_finite())
         }
-        Ok(())
     }
 }
 
@@ -305,9 +311,8 @@ impl OdeMethod for Radau {
         loop {
             let h = self.last.next_size(self.h, end)?;
             self.factor(h)?;
-            let solved = self.factors.as_mut().and_then(|factors| {
-                self.stages.solve(system, &self.last, (&self.jacobian, factors), self.estimated)
-            });
+            let matrices = (&self.jacobian, &mut self.factors);
+            let solved = self.stages.solve(system, &self.last, matrices, self.estimated);
             let Some(solved) = solved else {
                 rejected = true;
                 if !self.ends_at_break(system, (h, UNSOLVED), &mut end) {
@@ -385,6 +390,6 @@ impl OdeMethod for Radau {
             self.last.h = 0.0;
         }
         self.jacobian.valid = false;
-        self.factors = None;
+        self.factors.forget();
     }
 }

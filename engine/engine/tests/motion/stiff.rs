@@ -6,6 +6,7 @@
 use crate::common::{problem, random_scene};
 use crate::costs::damped;
 use triad_engine::catalogue;
+use triad_engine::prelude::{CustomLoad, Wrench};
 use triad_engine::run::{Frame, Simulation};
 use triad_engine::scene::{
     Body, ConstraintMethod, Coordinates, Driver, GROUND, IntegratorKind, Joint, Load, Motion, Scene,
@@ -314,4 +315,40 @@ fn beside_a_change_point_a_driven_mechanism_runs_to_its_end_at_every_tolerance()
             assert!(error < 1e-9, "{integrator} at {tolerance:.0e}: {error:.1e}");
         }
     }
+}
+
+/// Of an open tree, stages of a step are evaluated beside each other, unless a load is there that asks for a state in place: one that
+/// pushes nothing makes the same motion one by one.
+#[test]
+fn stages_beside_each_other_move_as_one_by_one() {
+    let text = r#"{"name": "all loads", "gravity": [0.3, 0, -9.81],
+        "bodies": [{"name": "arm", "mass": 1.2, "inertia": {"principal": [0.02, 0.09, 0.08]}, "position": [0.5, 0, 0]},
+            {"name": "sledge", "mass": 0.7, "inertia": {"principal": [0.01, 0.02, 0.03]}, "position": [1, 0.2, 0]},
+            {"name": "ball", "mass": 0.4, "inertia": {"principal": [0.03, 0.02, 0.01]}, "position": [1, 0.2, 0.5]},
+            {"name": "free", "mass": 0.9, "inertia": {"principal": [0.04, 0.05, 0.06]}, "position": [0, 2, 0]}],
+        "joints": [{"name": "hinge", "type": "revolute", "body_i": "arm", "body_j": "ground", "point": [0, 0, 0], "axis": [0.2, 1, 0.1]},
+            {"name": "slide", "type": "prismatic", "body_i": "arm", "body_j": "sledge", "point": [1, 0, 0], "axis": [0.1, 0.3, 1]},
+            {"name": "socket", "type": "spherical", "body_i": "sledge", "body_j": "ball", "point": [1, 0.2, 0.1]}],
+        "loads": [{"type": "torsion", "name": "a", "joint": "hinge", "stiffness": 20, "damping": 300,
+                "torque": {"kind": "harmonic", "amplitude": 4, "frequency": 1.5}},
+            {"type": "slider", "name": "b", "joint": "slide", "stiffness": 90, "damping": 40, "free_length": 0.1,
+                "friction": {"coulomb": 0.5, "smoothing": 0.1}},
+            {"type": "spring", "name": "c", "body_i": "ball", "point_i": [0.1, 0, 0.1], "body_j": "ground", "point_j": [2, 1, 1],
+                "stiffness": 40, "damping": 15, "free_length": 1},
+            {"type": "spring", "name": "d", "body_i": "free", "point_i": [0, 0.1, 0], "body_j": "arm", "point_j": [0.2, 0, 0.1], "stiffness": 30,
+                "damping": 5, "free_length": 1},
+            {"type": "force", "name": "e", "body": "free", "point": [0.1, 0.2, 0], 
+                "force": {"kind": "turning", "start": [0.5, 1, 2], "axis": [1, 1, 0], "angle": {"kind": "ramp", "rate": 2}}, "frame": "body"},
+            {"type": "moment", "name": "f", "body": "sledge", "moment": {"kind": "turning", "start": [3, 0, 1], "axis": [1, 1, 0], "angle": {"kind": "ramp", "rate": 2}}}],
+        "simulation": {"duration": 2, "integrator": "radau", "tolerance": 1e-10, "error_estimate": false}}"#;
+    let scene = Scene::from_json(text).unwrap();
+    let (beside, run) = end(&scene);
+    let mut one_by_one =
+        Simulation::with_loads(&scene, [CustomLoad::new("nothing", "free", |_| Wrench::force([0.0; 3]))])
+            .unwrap();
+    one_by_one.advance_to(2.0).unwrap();
+    let off = apart(&beside, &one_by_one.frame());
+    let [work, other] = [run.summary().work, one_by_one.summary().work];
+    println!("{off:.1e}, work {work} and {other}");
+    assert!(off < 1e-9 && (work - other).abs() < 1e-7, "{off:.1e}, work {work} and {other}");
 }

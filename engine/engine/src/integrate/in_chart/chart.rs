@@ -5,6 +5,7 @@
 //! and accelerations follow from η̇ = L ṗ and η̈ = L p̈. In a chart the constraints hold at every stage of an integrator, not
 //! only at the ends of steps.
 
+mod many;
 mod search;
 
 use super::guess::Guess;

@@ -67,12 +67,19 @@ pub struct Edge {
 
 /// A motion by one screw, whose placement is a + b sin s + c (1 − cos s) + d s with constant parts.
 #[derive(Clone, Debug)]
-struct OneScrew {
-    turning: Placement,
-    turned: Placement,
-    slide: Vector3<f64>,
-    twist: Twist,
-    turn: f64,
+pub struct OneScrew {
+    /// a.
+    pub start: Placement,
+    /// b.
+    pub turning: Placement,
+    /// c.
+    pub turned: Placement,
+    /// d.
+    pub slide: Vector3<f64>,
+    /// The twist of s, in the frame of the body from which it starts.
+    pub twist: Twist,
+    /// The angle for each unit of s.
+    pub turn: f64,
 }
 
 impl OneScrew {
@@ -84,6 +91,7 @@ impl OneScrew {
         let turning = by(cross);
         let again = cross * cross;
         Self {
+            start: *start,
             turning,
             turned: by(again),
             slide: screw.axis * screw.slide,
@@ -92,8 +100,14 @@ impl OneScrew {
         }
     }
 
-    fn placement(&self, start: &Placement, s: f64) -> Placement {
-        let mut at = *start;
+    /// None, which leaves the body where it is.
+    fn none(start: Placement) -> Self {
+        let screw = Screw { axis: Vector3::z(), point: Vector3::zeros(), turn: 0.0, slide: 0.0 };
+        Self::new(&screw, &start)
+    }
+
+    fn placement(&self, s: f64) -> Placement {
+        let mut at = self.start;
         if self.turn != 0.0 {
             let angle = self.turn * s;
             let (sin, versine) = (libm::sin(angle), 1.0 - libm::cos(angle));
@@ -164,6 +178,24 @@ impl Edge {
         Self { body, parent: None, first, screws, start, one: None }
     }
 
+    /// Its motion as a product of one for each coordinate, the last one with the placement where all are zero; one for a body that
+    /// does not move. Points of the ground are seen from `center`.
+    pub fn product(&self, center: &Vector3<f64>) -> Vec<OneScrew> {
+        let origin = if self.parent.is_none() { *center } else { Vector3::zeros() };
+        let start = Placement { at: self.start.at - origin, ..self.start };
+        let Some((last, before)) = self.screws.split_last() else { return vec![OneScrew::none(start)] };
+        let seen = |screw: &Screw| Screw { point: screw.point - origin, ..*screw };
+        let first = before.iter().map(|screw| OneScrew::new(&seen(screw), &Placement::identity()));
+        first.chain([OneScrew::new(&seen(last), &start)]).collect()
+    }
+
+    /// The only coordinate that turns the body, with the axis in the frame of the other body.
+    pub fn only_turn(&self) -> Option<(usize, Vector3<f64>)> {
+        let mut turning = self.range().zip(&self.screws).filter(|(_, screw)| screw.turn != 0.0);
+        let (place, screw) = turning.next()?;
+        turning.next().is_none().then_some((place, screw.axis * screw.turn))
+    }
+
     /// Its coordinates among all.
     pub fn range(&self) -> std::ops::Range<usize> {
         self.first..self.first + self.screws.len()
@@ -179,7 +211,7 @@ impl Edge {
     pub fn relative(&self, s: &[f64], twists: &mut [Twist]) -> Placement {
         if let (Some(one), [s], [twist]) = (&self.one, s, &mut *twists) {
             *twist = one.twist;
-            return one.placement(&self.start, *s);
+            return one.placement(*s);
         }
         let mut moved = Placement::identity();
         for ((screw, s), twist) in self.screws.iter().zip(s).zip(twists) {

@@ -2,6 +2,7 @@
 
 use super::tree::Tree;
 use super::tree_dynamics::TreeDynamics;
+use super::tree_lanes::TreeLanes;
 use nalgebra::{DMatrix, DVector, Vector3};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::model::{BodyMotion, Motions};
@@ -35,6 +36,16 @@ impl Numbers {
     /// Whether the tree alone decides how the mechanism moves: then there is nothing to solve for.
     pub fn are_all_free(&self) -> bool {
         matches!(self, Self::Joints { dynamics: Some(_), .. })
+    }
+
+    /// The tree and its equations of motion for several states at once, where there are such.
+    pub fn lanes(&mut self) -> Option<(&Tree, &mut TreeLanes)> {
+        match self {
+            Self::Joints { tree, dynamics: Some(dynamics), .. } => {
+                dynamics.lanes.as_mut().map(|lanes| (&**tree, &mut **lanes))
+            }
+            _ => None,
+        }
     }
 
     /// How many they are.
@@ -212,8 +223,11 @@ impl Numbers {
 
     /// Takes the others, and (p, ṗ) among them.
     pub fn restart(&mut self, p: &mut [f64], p_dot: &mut [f64]) {
-        if let Self::Joints { tree, .. } = self {
+        if let Self::Joints { tree, dynamics, .. } = self {
             tree.restart(p, p_dot);
+            if let Some(lanes) = dynamics.as_mut().and_then(|dynamics| dynamics.lanes.as_mut()) {
+                lanes.follow_tree(tree);
+            }
         }
     }
 

@@ -97,9 +97,14 @@ impl Tree {
         weights
     }
 
+    /// Whether no joint has turned too far since the last step.
+    pub fn reaches(&self, s: &[f64]) -> bool {
+        self.watched.iter().all(|&(place, start)| (s[place] - start).abs() <= LONGEST_TURN)
+    }
+
     /// Positions of all bodies at the coordinates s; nothing if a joint has turned too far since the last step.
     pub fn place(&mut self, s: &[f64]) -> Option<&[NaturalCoordinates]> {
-        if self.watched.iter().any(|&(place, start)| (s[place] - start).abs() > LONGEST_TURN) {
+        if !self.reaches(s) {
             return None;
         }
         for edge in &self.edges {

@@ -6,6 +6,7 @@
 
 use super::spatial::Twist;
 use super::tree::Tree;
+use super::tree_lanes::TreeLanes;
 use nalgebra::Vector3;
 use std::ops::AddAssign;
 use triad_dynamics::constraints::mechanism::Mechanism;
@@ -102,6 +103,8 @@ pub struct TreeDynamics {
     lacking: Vec<Wrench>,
     /// M = Lᵀ D L by rows, the unit lower triangular L below the diagonal and D on it.
     matrix: Vec<f64>,
+    /// The same for several states at once, where loads allow it.
+    pub lanes: Option<Box<TreeLanes>>,
 }
 
 impl TreeDynamics {
@@ -125,8 +128,10 @@ impl TreeDynamics {
         }
         let n = before.len();
         let middle: Vector3<f64> = mechanism.state.bodies().iter().map(|body| body.q.r).sum();
+        let center = middle / bodies.max(1) as f64;
         alone.then(|| Self {
-            center: middle / bodies.max(1) as f64,
+            lanes: TreeLanes::new(mechanism, tree, &before, &center).map(Box::new),
+            center,
             before,
             own: vec![Inertia::default(); bodies],
             carried: vec![Inertia::default(); bodies],

@@ -9,7 +9,7 @@ use crate::integrate::step::{StepRecord, StopReason};
 use crate::integrate::stepper::{OdeMethod, Stepper};
 use std::fmt::Debug;
 use triad_dynamics::constraints::mechanism::Mechanism;
-use triad_dynamics::ode::OdeSystem;
+use triad_dynamics::ode::{Many, OdeSystem, What};
 use triad_dynamics::system::System;
 
 /// The mechanism in the coordinates of a chart.
@@ -89,6 +89,22 @@ impl OdeSystem for InCoordinates<'_> {
             return;
         }
         self.write_rate(x, false, rate);
+    }
+
+    fn rhs_of_many(&mut self, mut of: Many) -> bool {
+        let Mechanism { system, elimination, .. } = &mut *self.mechanism;
+        if !self.chart.evaluate_many(system, &mut of) {
+            return false;
+        }
+        let (beside, found) = (of.what == What::Beside, of.what == What::FoundStages);
+        elimination.counters.evaluations += if found { 1 } else { of.states.len() as u64 };
+        for (stage, state) in of.states.iter().enumerate().filter(|_| !beside) {
+            if self.at_stages.len() <= stage {
+                self.at_stages.push(self.guess.clone());
+            }
+            self.chart.note(state, &mut self.at_stages[stage]);
+        }
+        true
     }
 
     fn reach(&mut self, t: f64, x: &[f64]) -> bool {

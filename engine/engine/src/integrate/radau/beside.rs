@@ -18,7 +18,7 @@ pub struct Beside {
     /// Weights of the other's stages in its polynomial at each of these: a column for each.
     between: DMatrix<f64>,
     jacobian: RateJacobian,
-    factors: Option<Factors>,
+    factors: Factors,
 }
 
 impl Beside {
@@ -36,16 +36,15 @@ impl Beside {
             other.method.collocation(*node, &mut weights);
             column.copy_from_slice(&weights);
         }
-        Self { stages, stepped: false, between, jacobian: RateJacobian::new(n / 2), factors: None }
+        let factors = Factors::new(n / 2, tables);
+        Self { stages, stepped: false, between, jacobian: RateJacobian::new(n / 2), factors }
     }
 
     /// Takes the matrices of the other run for a step of size h. False if one is singular.
     fn factor(&mut self, jacobian: &RateJacobian, h: f64) -> bool {
         let same = self.jacobian.copy_from(jacobian);
-        if !same || self.factors.as_ref().is_none_or(|factors| factors.h != h) {
-            self.factors = Factors::new(&self.jacobian, self.stages.method.tables, h);
-        }
-        self.factors.is_some()
+        let known = same && self.factors.h == h;
+        known || self.factors.factor(&self.jacobian, self.stages.method.tables, h)
     }
 }
 
@@ -78,7 +77,7 @@ impl Radau {
 
     /// Finds the stages of that step, and puts the system to its end, `trial`.
     fn find_beside(&mut self, system: &mut impl OdeSystem, other: &Self, beside: &mut Beside) -> bool {
-        let Beside { stages, between, jacobian, factors: Some(factors), .. } = beside else { return false };
+        let Beside { stages, between, jacobian, factors, .. } = beside;
         if !stages.solve_beside(
             system,
             &self.last,
@@ -104,7 +103,7 @@ impl Radau {
             self.power = system.power();
             self.before = None;
             self.jacobian.valid = false;
-            self.factors = None;
+            self.factors.forget();
         }
     }
 

@@ -92,6 +92,8 @@ pub struct Method {
     pub t: DMatrix<f64>,
     /// T⁻¹, transposed as well.
     pub t_inverse: DMatrix<f64>,
+    /// One by the product of the distances of each node from all others.
+    apart: Vec<f64>,
     /// Weights of the stages, less the start, in −p'(0), p being the collocation polynomial over the parts of the step: h ẋ at the start and −p'(0) add up to the error estimate.
     pub estimate: Vec<f64>,
 }
@@ -120,7 +122,12 @@ impl Method {
                 -others.product::<f64>() / tables.nodes[i].0
             })
             .collect();
-        Self { tables, t, t_inverse, estimate }
+        let apart = |own: f64| {
+            let others = tables.nodes.iter().filter(|(node, _)| *node != own);
+            1.0 / others.map(|(node, _)| own - node).product::<f64>()
+        };
+        let apart = tables.nodes.iter().map(|(own, _)| apart(*own)).collect();
+        Self { tables, t, t_inverse, apart, estimate }
     }
 
     /// Number of stages.
@@ -130,11 +137,16 @@ impl Method {
 
     /// Writes the weights of the stages in the polynomial through them at the part x of a step.
     pub fn through(&self, x: f64, weights: &mut [f64]) {
-        let nodes = self.tables.nodes;
-        for (stage, out) in weights.iter_mut().enumerate() {
-            let own = nodes[stage].0;
-            let others = nodes.iter().enumerate().filter(|&(other, _)| other != stage);
-            *out = others.map(|(_, (node, _))| (x - node) / (own - node)).product();
+        // Products of what comes before a stage, and of what comes behind it.
+        let mut product = 1.0;
+        for (out, ((node, _), apart)) in weights.iter_mut().zip(self.tables.nodes.iter().zip(&self.apart)) {
+            *out = product * apart;
+            product *= x - node;
+        }
+        product = 1.0;
+        for (out, (node, _)) in weights.iter_mut().zip(self.tables.nodes).rev() {
+            *out *= product;
+            product *= x - node;
         }
     }
 

@@ -1,10 +1,10 @@
 //! The linear systems of Newton's method: for second-order equations they have the size of η alone.
 
-use super::coefficients::RadauTables;
-use nalgebra::{Complex, DMatrix, DVector, Dyn, LU};
+mod factored;
 
-type RealLu = LU<f64, Dyn, Dyn>;
-type ComplexLu = LU<Complex<f64>, Dyn, Dyn>;
+use super::coefficients::RadauTables;
+use factored::Factored;
+use nalgebra::{Complex, DMatrix};
 
 /// Step over the time between two matrices above which the change from the one to the other says nothing about the step.
 const REACH: f64 = 3.0;
@@ -137,54 +137,65 @@ fn add_product(matrix: &DMatrix<f64>, x: &[f64], out: &mut [f64]) {
 /// near 1e-12 are worse.
 #[derive(Clone, Debug)]
 pub struct Factors {
-    /// The step size, s.
+    /// The step size, s; not a number where they belong to no matrix.
     pub h: f64,
-    real: RealLu,
-    pairs: Vec<ComplexLu>,
-    /// Right-hand sides of the halves a of solutions, and these.
+    real: Factored<f64>,
+    pairs: Vec<Factored<Complex<f64>>>,
+    /// Right-hand sides of the halves a of solutions.
     right: Vec<f64>,
-    half: DVector<f64>,
-    half_pair: DVector<Complex<f64>>,
+    half_pair: Vec<Complex<f64>>,
 }
 
 impl Factors {
-    /// For a step of size h. `None` if a matrix is singular.
-    pub fn new(
+    /// Room for f coordinates.
+    pub fn new(f: usize, tables: &RadauTables) -> Self {
+        Self {
+            h: f64::NAN,
+            real: Factored::new(f, 0.0),
+            pairs: vec![Factored::new(f, Complex::new(0.0, 0.0)); tables.pairs.len()],
+            right: vec![0.0; 2 * f],
+            half_pair: vec![Complex::new(0.0, 0.0); f],
+        }
+    }
+
+    /// They no longer belong to the matrices in use.
+    pub fn forget(&mut self) {
+        self.h = f64::NAN;
+    }
+
+    /// Finds those for a step of size h. False if a matrix is singular.
+    pub fn factor(
+        &mut self,
         RateJacobian { stiffness, damping, .. }: &RateJacobian,
         tables: &RadauTables,
         h: f64,
-    ) -> Option<Self> {
+    ) -> bool {
         let f = stiffness.nrows();
+        let both = || stiffness.as_slice().iter().zip(damping.as_slice());
         let mu = tables.real / h;
-        let real = (DMatrix::from_diagonal_element(f, f, mu * mu) - damping * mu - stiffness).lu();
-        let pairs = tables.pairs.iter().map(|pair| {
+        let entries = both().map(|(k, c)| -mu * c - k);
+        let mut regular = self.real.factor(f, entries, mu * mu);
+        for (factors, pair) in self.pairs.iter_mut().zip(tables.pairs) {
             let mu = pair / h;
-            let matrix = DMatrix::from_fn(f, f, |i, j| {
-                let unit = if i == j { mu * mu } else { Complex::new(0.0, 0.0) };
-                unit - mu * damping[(i, j)] - stiffness[(i, j)]
-            });
-            matrix.lu()
-        });
-        let pairs: Vec<ComplexLu> = pairs.collect();
-        let regular = real.is_invertible() && pairs.iter().all(ComplexLu::is_invertible);
-        let (right, half, half_pair) = (vec![0.0; 2 * f], DVector::zeros(f), DVector::zeros(f));
-        regular.then_some(Self { h, real, pairs, right, half, half_pair })
+            regular &= factors.factor(f, both().map(|(k, c)| -mu * c - k), mu * mu);
+        }
+        self.h = if regular { h } else { f64::NAN };
+        regular
     }
 
     /// (μ I − J)⁻¹ r with the real μ, in place. From the halves of (μ I − J)(a, b) = r:
     /// b = μ a − r_a, (μ² − μ C − K) a = r_b + (μ − C) r_a.
     pub fn solve_real(&mut self, jacobian: &RateJacobian, tables: &RadauTables, r: &mut [f64]) {
         let (f, mu) = (r.len() / 2, tables.real / self.h);
-        let (half, right) = (&mut self.half, &mut self.right[..f]);
+        let right = &mut self.right[..f];
         let (a, b) = r.split_at_mut(f);
         right.fill(0.0);
         add_product(&jacobian.damping, a, right);
         for (right, (a, b)) in right.iter_mut().zip(a.iter().zip(&*b)) {
             *right = b + mu * a - *right;
         }
-        half.as_mut_slice().copy_from_slice(right);
-        self.real.solve_mut(half);
-        for (half, (a, b)) in half.iter().zip(a.iter_mut().zip(b)) {
+        self.real.solve(right);
+        for (half, (a, b)) in right.iter().zip(a.iter_mut().zip(b)) {
             (*a, *b) = (*half, mu * half - *a);
         }
     }
@@ -213,7 +224,7 @@ impl Factors {
         for (half, (re, im)) in half_pair.iter_mut().zip(rr.iter().zip(&*ri)) {
             *half = Complex::new(*re, *im);
         }
-        pairs[pair].solve_mut(half_pair);
+        pairs[pair].solve(half_pair);
         for ((half, r), (a, b)) in half_pair.iter().zip(ra.iter_mut().zip(rb)).zip(ia.iter_mut().zip(ib)) {
             let rate = half * mu;
             (*r.0, *r.1) = (half.re, rate.re - *r.0);

@@ -8,7 +8,7 @@ use super::linear::{Factors, RateJacobian, TOGETHER};
 use super::updates::Updates;
 use crate::integrate::step::StepRecord;
 use nalgebra::DMatrix;
-use triad_dynamics::ode::OdeSystem;
+use triad_dynamics::ode::{Many, OdeSystem, What};
 
 /// Rounding of the stages to which Newton's method goes on, and below which it may end where its corrections shrink no further.
 const ROUNDING: (f64, f64) = (1e-14, 1e-12);
@@ -52,6 +52,11 @@ pub struct Stages {
     /// Power at the stages, W, and at those of the last accepted step; zero where nothing changes the energy.
     power: Vec<f64>,
     power_old: Vec<f64>,
+    /// Times and states of the stages.
+    times: Vec<f64>,
+    states: Vec<Vec<f64>>,
+    /// Whether ẏ and the power at the stages are those at the stages as they were found.
+    evaluated: bool,
     trial: Vec<f64>,
     weights: Vec<f64>,
     /// One by the error that each number may have.
@@ -85,14 +90,20 @@ fn combine<'a>(
         let range = start..n.min(start + TOGETHER);
         let mut parts = [[0.0; TOGETHER]; MOST_STAGES];
         for (part, from) in parts.iter_mut().zip(from.clone()) {
-            part[..range.len()].copy_from_slice(&from[range.clone()]);
+            match from[start..].first_chunk() {
+                Some(whole) => *part = *whole,
+                None => part[..range.len()].copy_from_slice(&from[range.clone()]),
+            }
         }
         for (weights, out) in weights.as_slice().chunks_exact(weights.nrows()).zip(&mut *out) {
             let mut sum = [0.0; TOGETHER];
             for (weight, part) in weights.iter().zip(&parts) {
                 sum.iter_mut().zip(part).for_each(|(sum, x)| *sum += weight * x);
             }
-            out[range.clone()].copy_from_slice(&sum[..range.len()]);
+            match out[start..].first_chunk_mut() {
+                Some(whole) => *whole = sum,
+                None => out[range.clone()].copy_from_slice(&sum[..range.len()]),
+            }
         }
     }
 }
@@ -119,6 +130,9 @@ impl Stages {
             beyond: halves(),
             power: vec![0.0; s],
             power_old: vec![0.0; s],
+            times: vec![0.0; s],
+            states: zeros(),
+            evaluated: false,
             trial: vec![0.0; n],
             weights: vec![0.0; s],
             scale: Vec::with_capacity(n),
@@ -168,8 +182,8 @@ impl Stages {
                     return (size <= enough).then_some(Solved { iterations: iteration + 1, contraction });
                 }
                 let left = (most - 1 - iteration) as f64;
-                let hopeless = rate / (1.0 - rate) * size * libm::pow(rate, left) > 10.0 * enough;
-                if iteration > 1 && hopeless && size > enough {
+                let hopeless = || rate / (1.0 - rate) * size * libm::pow(rate, left) > 10.0 * enough;
+                if iteration > 1 && size > enough && hopeless() {
                     return None;
                 }
             }
@@ -211,8 +225,29 @@ impl Stages {
         Some(self.updates.improve(&self.scale) / numbers.sqrt())
     }
 
+    /// ẋ and the power at all stages at once, if the system can.
+    fn evaluate_at_once(
+        &mut self,
+        system: &mut impl OdeSystem,
+        last: &StepRecord,
+        h: f64,
+        what: What,
+    ) -> bool {
+        for stage in 0..self.z.len() {
+            self.times[stage] = self.time(last, h, stage);
+            let numbers = last.y.iter().zip(&self.z[stage]);
+            self.states[stage].iter_mut().zip(numbers).for_each(|(state, (x, z))| *state = x + z);
+        }
+        let Self { times, states, f, power, .. } = self;
+        system.rhs_of_many(Many { times, states, rates: f, power, what })
+    }
+
     /// ẋ at all stages. False if it is not finite.
     fn evaluate(&mut self, system: &mut impl OdeSystem, last: &StepRecord, h: f64, first: bool) -> bool {
+        self.evaluated = false;
+        if self.evaluate_at_once(system, last, h, What::Stages) {
+            return self.f.iter().flatten().all(|f| f.is_finite());
+        }
         for stage in 0..self.z.len() {
             self.set_trial(last, stage);
             system.begin_stage(stage, first);
@@ -244,7 +279,8 @@ impl Stages {
         h: f64,
         before: f64,
     ) -> [f64; 2] {
-        for stage in 0..self.z.len() {
+        self.evaluated = self.evaluate_at_once(system, last, h, What::FoundStages);
+        for stage in 0..if self.evaluated { 0 } else { self.z.len() } {
             self.set_trial(last, stage);
             system.begin_stage(stage, false);
             let time = self.time(last, h, stage);
@@ -257,6 +293,12 @@ impl Stages {
         [h / self.method.tables.real * (before - foreseen).abs(), h * turnover]
     }
 
+    /// ẋ at the last stage as it was found, if it is at that time and was evaluated there.
+    pub fn rate_at(&self, time: f64) -> Option<&[f64]> {
+        let known = self.evaluated && self.times.last() == Some(&time);
+        self.f.last().filter(|_| known).map(Vec::as_slice)
+    }
+
     /// Keeps the stages as those of the last step.
     pub fn accept(&mut self) {
         std::mem::swap(&mut self.z, &mut self.z_old);
@@ -265,6 +307,10 @@ impl Stages {
 
     /// Integral of the power from the start of the last step, of size h, to its part x, J.
     pub fn work(&self, x: f64, h: f64) -> f64 {
+        if x == 1.0 {
+            let parts = self.method.tables.nodes.iter().zip(&self.power_old);
+            return h * parts.map(|((_, b), power)| b * power).sum::<f64>();
+        }
         let mut weights = vec![0.0; self.power_old.len()];
         let mut work = 0.0;
         // Exact for a polynomial through the stages.
