@@ -67,10 +67,11 @@ fn off(tables: &'static RadauTables, steps: u32) -> f64 {
 #[test]
 fn each_number_of_stages_has_its_order() {
     for (tables, order, steps) in
-        [(&RADAU_5, 5.0, [16, 32]), (&RADAU_9, 9.0, [8, 16]), (&RADAU_13, 13.0, [4, 8])]
+        // With more than seven steps of order 13 rounding is as large as the error.
+        [(&RADAU_5, 5.0, [16, 32]), (&RADAU_9, 9.0, [8, 16]), (&RADAU_13, 13.0, [4, 7])]
     {
         let [coarse, fine] = steps.map(|steps| off(tables, steps));
-        let observed = libm::log2(coarse / fine);
+        let observed = libm::log2(coarse / fine) / libm::log2(f64::from(steps[1]) / f64::from(steps[0]));
         assert!((observed - order).abs() < 0.9, "{order}: {coarse:.2e}, {fine:.2e}, {observed:.2}");
     }
 }

@@ -97,14 +97,14 @@ impl Tree {
         weights
     }
 
-    /// Whether no joint has turned too far since the last step.
-    pub fn reaches(&self, s: &[f64]) -> bool {
-        self.watched.iter().all(|&(place, start)| (s[place] - start).abs() <= LONGEST_TURN)
+    /// Whether no joint has turned too far since the last step, at coordinates by their places.
+    pub fn reaches(&self, s: impl Fn(usize) -> f64) -> bool {
+        self.watched.iter().all(|&(place, start)| (s(place) - start).abs() <= LONGEST_TURN)
     }
 
     /// Positions of all bodies at the coordinates s; nothing if a joint has turned too far since the last step.
     pub fn place(&mut self, s: &[f64]) -> Option<&[NaturalCoordinates]> {
-        if !self.reaches(s) {
+        if !self.reaches(|place| s[place]) {
             return None;
         }
         for edge in &self.edges {

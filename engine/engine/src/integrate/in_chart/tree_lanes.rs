@@ -204,15 +204,18 @@ impl TreeLanes {
             let ibar = &system.bodies[link.body].ibar;
             body.set_inertia(&place, system.bodies[link.body].mass, ibar);
             let inertia = Inertia::load(simd, body, system.bodies[link.body].mass);
-            let (momentum, change) = (inertia.momentum(velocity), inertia.momentum(drag));
+            let momentum = inertia.momentum(velocity);
             let weight = WideVector::all(simd, &system.model.gravity);
-            let lacking = WidePair {
+            let mut lacking = WidePair {
                 turning: inertia.first.cross(weight)
-                    - change.turning
                     - velocity.turning.cross(momentum.turning)
                     - velocity.moving.cross(momentum.moving),
-                moving: weight.times(inertia.mass) - change.moving - velocity.turning.cross(momentum.moving),
+                moving: weight.times(inertia.mass) - velocity.turning.cross(momentum.moving),
             };
+            // Only the first twist on the way from the ground does not change.
+            if link.parent.is_some() || link.count > 1 {
+                lacking = lacking - inertia.momentum(drag);
+            }
             lacking.store(&mut body.lacking);
         }
     }

@@ -3,7 +3,8 @@
 
 use super::Radau;
 use super::coefficients::{RADAU_9, RADAU_13, RADAU_17};
-use super::linear::{Factors, RateJacobian};
+use super::factors::Factors;
+use super::linear::RateJacobian;
 use super::stages::Stages;
 use nalgebra::DMatrix;
 use triad_dynamics::ode::OdeSystem;
@@ -36,7 +37,7 @@ impl Beside {
             other.method.collocation(*node, &mut weights);
             column.copy_from_slice(&weights);
         }
-        let factors = Factors::new(n / 2, tables);
+        let factors = Factors::new(n / 2, &stages.blocks);
         Self { stages, stepped: false, between, jacobian: RateJacobian::new(n / 2), factors }
     }
 
@@ -44,7 +45,7 @@ impl Beside {
     fn factor(&mut self, jacobian: &RateJacobian, h: f64) -> bool {
         let same = self.jacobian.copy_from(jacobian);
         let known = same && self.factors.h == h;
-        known || self.factors.factor(&self.jacobian, self.stages.method.tables, h)
+        known || self.factors.factor(&self.jacobian, &self.stages.blocks, h)
     }
 }
 

@@ -3,8 +3,10 @@
 mod beside;
 mod correction;
 
+use super::blocks::{Blocks, NONE, Pair};
 use super::coefficients::{MOST_STAGES, Method, RADAU_9, RadauTables};
-use super::linear::{Factors, RateJacobian, TOGETHER};
+use super::factors::Factors;
+use super::linear::RateJacobian;
 use super::updates::Updates;
 use crate::integrate::step::StepRecord;
 use nalgebra::DMatrix;
@@ -41,14 +43,15 @@ pub struct Stages {
     pub z: Vec<Vec<f64>>,
     /// Those of the last accepted step.
     pub z_old: Vec<Vec<f64>>,
+    /// How they turn into blocks.
+    pub blocks: Blocks,
     /// T⁻¹ z.
-    w: Vec<Vec<f64>>,
-    /// ẋ at the stages, f, and T⁻¹ f.
+    w: Vec<Pair>,
+    /// ẋ at the stages, f, and what they lack in the coordinates of w.
     f: Vec<Vec<f64>>,
-    forward: Vec<Vec<f64>>,
-    /// Accelerations by what the Jacobian matrices of the stages have beside the common one, times the correction; and T⁻¹ times these.
-    changed: Vec<Vec<f64>>,
-    beyond: Vec<Vec<f64>>,
+    forward: Vec<Pair>,
+    /// Accelerations by the change of the Jacobian matrix, times the correction.
+    changed: Vec<Pair>,
     /// Power at the stages, W, and at those of the last accepted step; zero where nothing changes the energy.
     power: Vec<f64>,
     power_old: Vec<f64>,
@@ -78,6 +81,9 @@ fn reaches(last: &StepRecord, h: f64) -> bool {
 pub fn scale(i: usize, n: usize, y: f64, estimated: f64) -> f64 {
     1.0 / (estimated * if 2 * i < n { 1.0 } else { 1.0 + y.abs() })
 }
+
+/// Numbers that are summed beside each other.
+const TOGETHER: usize = 4;
 
 /// Each column of the matrix as the weights of a sum.
 fn combine<'a>(
@@ -118,16 +124,17 @@ impl Stages {
     pub fn new(tables: &'static RadauTables, n: usize) -> Self {
         let method = Method::new(tables);
         let s = method.stages();
-        let [zeros, halves] = [n, n / 2].map(|n| move || vec![vec![0.0; n]; s]);
+        let zeros = || vec![vec![0.0; n]; s];
+        let blocks = Blocks::new(&method);
+        let rows = |n: usize| vec![NONE; n * blocks.groups];
         Self {
             method,
             z: zeros(),
             z_old: zeros(),
-            w: zeros(),
+            w: rows(n),
             f: zeros(),
-            forward: zeros(),
-            changed: halves(),
-            beyond: halves(),
+            forward: rows(n),
+            changed: rows(n / 2),
             power: vec![0.0; s],
             power_old: vec![0.0; s],
             times: vec![0.0; s],
@@ -136,7 +143,8 @@ impl Stages {
             trial: vec![0.0; n],
             weights: vec![0.0; s],
             scale: Vec::with_capacity(n),
-            updates: Updates::new(s * n),
+            updates: Updates::new(n * blocks.groups),
+            blocks,
             latest: f64::INFINITY,
             further: false,
         }
@@ -220,9 +228,9 @@ impl Stages {
         if !self.evaluate(system, last, factors.h, first) {
             return None;
         }
-        self.correct(last, jacobian, factors);
+        let size = self.correct(last.t, jacobian, factors);
         let numbers = self.scale.len() as f64 * self.z.len() as f64;
-        Some(self.updates.improve(&self.scale) / numbers.sqrt())
+        Some(size / numbers.sqrt())
     }
 
     /// ẋ and the power at all stages at once, if the system can.
@@ -322,16 +330,6 @@ impl Stages {
         work * x * h
     }
 
-    /// Applies the improved correction.
-    fn apply(&mut self) {
-        let n = self.trial.len();
-        let correction = self.updates.last();
-        for (w, correction) in self.w.iter_mut().zip(correction.chunks_exact(n)) {
-            w.iter_mut().zip(correction).for_each(|(w, correction)| *w += correction);
-        }
-        combine(&self.method.t, &rows(&self.w), &mut self.z);
-    }
-
     /// First stages: from the polynomial of the last step, or none.
     fn predict(&mut self, last: &StepRecord, h: f64) {
         let s = self.z.len();
@@ -348,11 +346,6 @@ impl Stages {
             }
         }
         self.turn_over();
-    }
-
-    /// w = T⁻¹ z.
-    fn turn_over(&mut self) {
-        combine(&self.method.t_inverse, &rows(&self.z), &mut self.w);
     }
 
     /// Adds to the end of the last step what its polynomial foresees for the part `part` of a step of size h, if that is not too far.

@@ -2,7 +2,8 @@
 
 use super::Chart;
 use crate::integrate::in_chart::guess::Guess;
-use crate::integrate::in_chart::tree_lanes::TreeLanes;
+use crate::integrate::in_chart::tree_lanes::{LaneStates, TreeLanes};
+use crate::integrate::wide::MOST_LANES;
 use triad_dynamics::ode::Many;
 use triad_dynamics::system::System;
 
@@ -10,32 +11,32 @@ impl Chart {
     /// Writes what is asked for. False if the mechanism must be put into each state for it.
     pub fn evaluate_many(&mut self, system: &System, of: &mut Many) -> bool {
         let (open, f) = (self.is_open(), self.freedoms());
-        let Self { numbers, base, basis, functionals, start, .. } = self;
+        let Self { numbers, base, basis, functionals, .. } = self;
         let Some((tree, lanes)) = numbers.lanes().filter(|_| open) else { return false };
         let (width, count) = (TreeLanes::width(), of.states.len());
         for first in (0..count).step_by(width) {
             // Idle lanes repeat the last state.
-            for lane in 0..width {
-                let state = (first + lane).min(count - 1);
-                lanes.at.times[lane] = of.times[state];
-                let (eta, eta_dot) = of.states[state].split_at(f);
-                for i in 0..f {
-                    lanes.at.places[i][lane] = base[i] + basis[(i, i)] * eta[i];
-                    lanes.at.rates[i][lane] = basis[(i, i)] * eta_dot[i];
-                }
+            let places: [usize; MOST_LANES] = std::array::from_fn(|lane| (first + lane).min(count - 1));
+            let states = places.map(|place| of.states[place].split_at(f));
+            let LaneStates { times, places: p, rates: p_dot, .. } = &mut lanes.at;
+            *times = places.map(|place| of.times[place]);
+            for i in 0..f {
+                let (from, by) = (base[i], basis[(i, i)]);
+                p[i] = states.map(|(eta, _)| from + by * eta[i]);
+                p_dot[i] = states.map(|(_, eta_dot)| by * eta_dot[i]);
             }
             lanes.evaluate(system);
-            for (lane, state) in (first..count.min(first + width)).enumerate() {
-                let rate = &mut of.rates[state];
-                rate[..f].copy_from_slice(&of.states[state][f..]);
-                for i in 0..f {
-                    rate[f + i] = functionals[(i, i)] * lanes.at.accelerations[i][lane];
-                    start[i] = lanes.at.places[i][lane];
+            let LaneStates { places: p, accelerations, power, .. } = &lanes.at;
+            for lane in 0..width.min(count - first) {
+                let (velocity, acceleration) = of.rates[first + lane].split_at_mut(f);
+                velocity.copy_from_slice(states[lane].1);
+                for (i, (out, found)) in acceleration.iter_mut().zip(accelerations).enumerate() {
+                    *out = functionals[(i, i)] * found[lane];
                 }
-                of.power[state] = lanes.at.power[lane];
-                if !tree.reaches(start.as_slice()) {
+                of.power[first + lane] = power[lane];
+                if !tree.reaches(|place| p[place][lane]) {
                     // A step that leaves the chart is too long.
-                    rate.fill(f64::NAN);
+                    of.rates[first + lane].fill(f64::NAN);
                 }
             }
         }

@@ -1,7 +1,8 @@
 //! The stages of a step that another run has taken with fewer of them.
 
 use super::{DIVERGING, DIVERGING_AT_FIRST, ROUNDING, Stages, combine, rows};
-use crate::integrate::radau::linear::{Factors, RateJacobian};
+use crate::integrate::radau::factors::Factors;
+use crate::integrate::radau::linear::RateJacobian;
 use crate::integrate::step::StepRecord;
 use nalgebra::DMatrix;
 use triad_dynamics::ode::OdeSystem;

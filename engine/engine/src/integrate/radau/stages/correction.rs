@@ -1,64 +1,132 @@
 //! The correction of all stages by an iteration of Newton's method — eq. (10.6): with the factors of one Jacobian matrix, and once more
 //! with what those of the stages have beside it, as far as that is linear in time.
 
-use super::{Stages, combine, rows};
-use crate::integrate::radau::linear::{Factors, RateJacobian};
-use crate::integrate::step::StepRecord;
-use nalgebra::Complex;
+use super::Stages;
+use crate::integrate::radau::blocks::{NONE, Pair, add_product, less_product};
+use crate::integrate::radau::factors::Factors;
+use crate::integrate::radau::linear::RateJacobian;
+use pulp::{Arch, Simd, WithSimd};
 
-impl Stages {
-    /// Finds the correction of w.
-    pub(super) fn correct(&mut self, last: &StepRecord, jacobian: &RateJacobian, factors: &mut Factors) {
-        self.turn_defects(factors.h);
-        self.beyond.iter_mut().for_each(|beyond| beyond.fill(0.0));
-        self.solve_blocks(jacobian, factors);
-        if jacobian.changes() {
-            self.find_beyond(last, jacobian, factors.h);
-            self.solve_blocks(jacobian, factors);
-        }
-    }
+/// Finds a correction, for stages of a step from the time `start`.
+struct Correct<'a> {
+    stages: &'a mut Stages,
+    start: f64,
+    jacobian: &'a RateJacobian,
+    factors: &'a mut Factors,
+}
 
-    /// What the stages lack, f − A⁻¹ z / h, in the coordinates of w.
-    fn turn_defects(&mut self, h: f64) {
-        let Self { method, f, w, forward, .. } = self;
-        combine(&method.t_inverse, &rows(f), forward);
-        for (x, w) in forward[0].iter_mut().zip(&w[0]) {
-            *x -= method.tables.real / h * w;
-        }
-        for (place, eigenvalue) in method.tables.pairs.iter().enumerate() {
-            let (k, mu) = (1 + 2 * place, eigenvalue / h);
-            for i in 0..w[k].len() {
-                let product = mu * Complex::new(w[k][i], w[k + 1][i]);
-                forward[k][i] -= product.re;
-                forward[k + 1][i] -= product.im;
+impl WithSimd for Correct<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        let Self { stages, start, jacobian, factors } = self;
+        let Stages { blocks, f, w, forward, changed, updates, scale, .. } = stages;
+        let (groups, h) = (blocks.groups, factors.h);
+        let rows = forward.chunks_exact_mut(groups).zip(w.chunks_exact(groups));
+        // What the stages lack, f − A⁻¹ z / h.
+        for (number, (row, w)) in rows.enumerate() {
+            blocks.turn(f, number, row);
+            // The large part last: it is rounded once.
+            for (sum, (mu, w)) in row.iter_mut().zip(factors.mu().iter().zip(w)) {
+                *sum = less_product(*sum, mu, w);
             }
         }
-    }
-
-    /// What is beyond the common matrix at the stages, times the correction in the making.
-    fn find_beyond(&mut self, last: &StepRecord, jacobian: &RateJacobian, h: f64) {
-        let Self { method, f, changed, beyond, trial, updates, .. } = self;
-        // f itself has been used: here it holds the correction of z.
-        combine(&method.t, &updates.next().chunks_exact(trial.len()), f);
-        for ((node, _), (z, changed)) in method.tables.nodes.iter().zip(f.iter().zip(&mut *changed)) {
-            jacobian.changed(last.t + node * h, z, changed);
-        }
-        combine(&method.t_inverse, &rows(changed), beyond);
-    }
-
-    /// The correction by the common matrix, of what the stages lack and what is beyond it.
-    fn solve_blocks(&mut self, jacobian: &RateJacobian, factors: &mut Factors) {
-        let Self { method, forward, beyond, updates, trial, .. } = self;
-        let (tables, n) = (method.tables, trial.len());
         let correction = updates.next();
-        for (out, (forward, beyond)) in correction.chunks_exact_mut(n).zip(forward.iter().zip(beyond)) {
-            out.copy_from_slice(forward);
-            out[n / 2..].iter_mut().zip(beyond).for_each(|(out, beyond)| *out += *beyond);
+        correction.copy_from_slice(forward);
+        factors.solve(jacobian, correction);
+        if let Some((at, change)) = jacobian.change() {
+            changed.fill(NONE);
+            for (matrix, rows) in change.iter().zip(correction.chunks_exact(changed.len())) {
+                for group in 0..groups {
+                    add_product((matrix.as_slice(), matrix.nrows()), rows, (group, groups), changed);
+                }
+            }
+            let (_, rates) = forward.split_at_mut(changed.len());
+            for (row, changed) in rates.chunks_exact_mut(groups).zip(changed.chunks_exact(groups)) {
+                blocks.add_along([start - at, h], changed, row);
+            }
+            correction.copy_from_slice(forward);
+            factors.solve(jacobian, correction);
         }
-        let (real, pairs) = correction.split_at_mut(n);
-        factors.solve_real(jacobian, tables, real);
-        for (place, pair) in pairs.chunks_exact_mut(2 * n).enumerate() {
-            factors.solve_pair(jacobian, tables, place, pair.split_at_mut(n).into());
+        updates.improve(scale, groups)
+    }
+}
+
+/// Applies the improved correction.
+struct Apply<'a>(&'a mut Stages);
+
+impl WithSimd for Apply<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Stages { blocks, z, w, updates, .. } = self.0;
+        for (w, correction) in w.as_flattened_mut().iter_mut().zip(updates.last().as_flattened()) {
+            for (w, correction) in w.iter_mut().zip(correction) {
+                *w += correction;
+            }
         }
+        for (number, row) in w.chunks_exact(blocks.groups).enumerate() {
+            blocks.turn_back(row, number, z);
+        }
+    }
+}
+
+/// w = T⁻¹ z.
+struct TurnOver<'a>(&'a mut Stages);
+
+impl WithSimd for TurnOver<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Stages { blocks, z, w, .. } = self.0;
+        for (number, row) in w.chunks_exact_mut(blocks.groups).enumerate() {
+            blocks.turn(z, number, row);
+        }
+    }
+}
+
+/// (μ I − J)⁻¹ x with the real μ.
+struct Filter<'a>(&'a mut [Pair], &'a RateJacobian, &'a mut Factors, &'a mut [f64]);
+
+impl WithSimd for Filter<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self(rows, jacobian, factors, x) = self;
+        rows.fill(NONE);
+        let groups = factors.mu().len();
+        for (row, x) in rows.iter_mut().step_by(groups).zip(&*x) {
+            row[0][0] = *x;
+        }
+        factors.solve(jacobian, rows);
+        for (row, x) in rows.iter().step_by(groups).zip(x) {
+            *x = row[0][0];
+        }
+    }
+}
+
+impl Stages {
+    /// Finds the correction of w, and its size.
+    pub(super) fn correct(&mut self, start: f64, jacobian: &RateJacobian, factors: &mut Factors) -> f64 {
+        Arch::new().dispatch(Correct { stages: self, start, jacobian, factors })
+    }
+
+    /// Applies the improved correction.
+    pub(super) fn apply(&mut self) {
+        Arch::new().dispatch(Apply(self));
+    }
+
+    /// w = T⁻¹ z.
+    pub(super) fn turn_over(&mut self) {
+        Arch::new().dispatch(TurnOver(self));
+    }
+
+    /// x ← (μ I − J)⁻¹ x with the real μ.
+    pub fn filter(&mut self, jacobian: &RateJacobian, factors: &mut Factors, x: &mut [f64]) {
+        Arch::new().dispatch(Filter(&mut self.forward, jacobian, factors, x));
     }
 }
