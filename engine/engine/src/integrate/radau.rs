@@ -31,13 +31,6 @@ use linear::RateJacobian;
 use stages::{Stages, scale};
 use triad_dynamics::ode::OdeSystem;
 
-/// Least tolerance at which the method has order 5, and order 9: measured on stiff and driven mechanisms. At 1e-6 order 13 takes half of
-/// the time of order 9 on the car axis, a sixth less on driven dampers, on the governor 6 in 100 more; at 1e-5 order 9 takes no more on
-/// any, and at 1e-3 no more than order 5.
-const AT_ORDER_5: f64 = 3e-3;
-const AT_ORDER_9: f64 = 3e-6;
-/// The latter on open trees: side by side seven stages take no longer than five, and on the governor a sixth less at 1e-5.
-const AT_ORDER_9_OPEN: f64 = 3e-5;
 /// Ratio of successive corrections that steps are chosen for: it grows with the step, and beyond this one Newton's method
 /// costs more than a longer step saves.
 const CONTRACTION: f64 = 0.25;
@@ -104,8 +97,8 @@ impl Radau {
 
     /// Starts at (t, x) with relative and absolute tolerance `tolerance`.
     pub fn new(system: &mut impl OdeSystem, t: f64, x: &[f64], tolerance: f64) -> Self {
-        let mut integrator =
-            Self::with_tables(tables_for(tolerance, system.solves_nothing()), system, t, x, tolerance);
+        let tables = RadauTables::of(tolerance, system.solves_nothing());
+        let mut integrator = Self::with_tables(tables, system, t, x, tolerance);
         integrator.h = first_step(x, &integrator.rate);
         integrator
     }
@@ -284,17 +277,6 @@ impl Radau {
         } else {
             Err(self.last.not_finite())
         }
-    }
-}
-
-/// The order for a tolerance: the looser, the fewer stages.
-fn tables_for(tolerance: f64, open: bool) -> &'static RadauTables {
-    if tolerance >= AT_ORDER_5 {
-        &RADAU_5
-    } else if tolerance >= if open { AT_ORDER_9_OPEN } else { AT_ORDER_9 } {
-        &RADAU_9
-    } else {
-        &RADAU_13
     }
 }
 

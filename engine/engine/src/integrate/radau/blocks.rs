@@ -63,9 +63,9 @@ pub struct Blocks {
     /// Stages, and where each part of the blocks stands in a row.
     pub places: Vec<usize>,
     /// T⁻¹: for each stage what it adds to a row.
-    to_blocks: Vec<Pair>,
+    turns: Vec<Pair>,
     /// T: for each part what it adds to the stages.
-    to_stages: Vec<Stored>,
+    turns_back: Vec<Stored>,
     /// T⁻¹ diag(c) T: for each part what it adds to a row.
     along: Vec<Pair>,
     /// The eigenvalues; idle lanes repeat the real one.
@@ -81,16 +81,16 @@ impl Blocks {
             |block: usize, part: usize| (block / MOST_LANES * 2 + part) * MOST_LANES + block % MOST_LANES;
         let places: Vec<usize> =
             [place(0, 0)].into_iter().chain((0..s - 1).map(|k| place(1 + k / 2, k % 2))).collect();
-        let mut to_blocks = vec![NONE; s * groups];
+        let mut turns = vec![NONE; s * groups];
         let mut along = vec![NONE; s * groups];
-        let mut to_stages = vec![[0.0; MOST_LANES]; s * s.div_ceil(MOST_LANES)];
+        let mut turns_back = vec![[0.0; MOST_LANES]; s * s.div_ceil(MOST_LANES)];
         let row = |pairs: &mut [Pair], of: usize, at: usize, value: f64| {
             pairs[of * groups..].as_flattened_mut().as_flattened_mut()[at] = value;
         };
         for stage in 0..s {
             for (k, &place) in places.iter().enumerate() {
-                row(&mut to_blocks, stage, place, method.t_inverse[(stage, k)]);
-                to_stages[k * s.div_ceil(MOST_LANES)..].as_flattened_mut()[stage] = method.t[(k, stage)];
+                row(&mut turns, stage, place, method.t_inverse[(stage, k)]);
+                turns_back[k * s.div_ceil(MOST_LANES)..].as_flattened_mut()[stage] = method.t[(k, stage)];
             }
         }
         for from in 0..s {
@@ -104,7 +104,7 @@ impl Blocks {
             let [re, im] = &mut eigenvalues[block / MOST_LANES];
             (re[block % MOST_LANES], im[block % MOST_LANES]) = (pair.re, pair.im);
         }
-        Self { groups, places, to_blocks, to_stages, along, eigenvalues }
+        Self { groups, places, turns, turns_back, along, eigenvalues }
     }
 
     /// The eigenvalues over a step.
@@ -117,7 +117,7 @@ impl Blocks {
     pub fn turn(&self, stages: &[Vec<f64>], number: usize, row: &mut [Pair]) {
         for (group, row) in row.iter_mut().enumerate() {
             let mut sum = NONE;
-            for (stage, columns) in stages.iter().zip(self.to_blocks.chunks_exact(self.groups)) {
+            for (stage, columns) in stages.iter().zip(self.turns.chunks_exact(self.groups)) {
                 sum = plus_scaled(sum, &columns[group], stage[number]);
             }
             *row = sum;
@@ -131,7 +131,7 @@ impl Blocks {
         let length = stages.len().div_ceil(MOST_LANES);
         for (some, stages) in stages.chunks_mut(MOST_LANES).enumerate() {
             let mut sum = [0.0; MOST_LANES];
-            for (columns, place) in self.to_stages.chunks_exact(length).zip(&self.places) {
+            for (columns, place) in self.turns_back.chunks_exact(length).zip(&self.places) {
                 sum = plus(sum, columns[some], [row[*place]; MOST_LANES]);
             }
             for (stage, x) in stages.iter_mut().zip(sum) {

@@ -4,6 +4,14 @@
 
 use nalgebra::{Complex, DMatrix};
 
+/// Least tolerance at which the method has order 5, and order 9: measured on stiff and driven mechanisms. At 1e-6 order 13 takes half of
+/// the time of order 9 on the car axis, a sixth less on driven dampers, on the governor 6 in 100 more; at 1e-5 order 9 takes no more on
+/// any, and at 1e-3 no more than order 5.
+const AT_ORDER_5: f64 = 3e-3;
+const AT_ORDER_9: f64 = 3e-6;
+/// The latter on open trees: side by side seven stages take no longer than five, and on the governor a sixth less at 1e-5.
+const AT_ORDER_9_OPEN: f64 = 3e-5;
+
 /// A method as tables.
 #[derive(Debug)]
 pub struct RadauTables {
@@ -13,6 +21,19 @@ pub struct RadauTables {
     pub real: f64,
     /// One of each pair of complex eigenvalues of A⁻¹.
     pub pairs: &'static [Complex<f64>],
+}
+
+impl RadauTables {
+    /// The order for a tolerance: the looser, the fewer stages. `open` says that nothing is solved for in the coordinates.
+    pub fn of(tolerance: f64, open: bool) -> &'static Self {
+        if tolerance >= AT_ORDER_5 {
+            &RADAU_5
+        } else if tolerance >= if open { AT_ORDER_9_OPEN } else { AT_ORDER_9 } {
+            &RADAU_9
+        } else {
+            &RADAU_13
+        }
+    }
 }
 
 /// Three stages, order 5.

@@ -10,6 +10,7 @@ use triad_dynamics::model::motion::VectorCurve;
 use triad_dynamics::model::{BodyRef, ForceLaw};
 use triad_dynamics::scene::LoadFrame;
 use triad_dynamics::system::System;
+use triad_dynamics::system::feature::Difference;
 use triad_dynamics::system::index::FeatureId;
 use triad_dynamics::system::load::SystemLoad;
 
@@ -122,21 +123,7 @@ impl TreeLanes {
                 self.turn(simd, bodies[1], moment);
                 without * speed
             }
-            SystemLoad::Slider { axis, between, law } => {
-                let axis = self.feature(simd, system, *axis);
-                let plus = self.feature(simd, system, between.plus);
-                let minus = match between.minus {
-                    Some(id) => self.feature(simd, system, id),
-                    None => self.origin(simd),
-                };
-                let (apart, rate) = (plus.value - minus.value, plus.rate - minus.rate);
-                let speed = axis.value.dot(rate) + axis.rate.dot(apart);
-                let (force, without) = acting.law(simd, law, axis.value.dot(apart), speed);
-                self.push(simd, &plus, axis.value.times(force));
-                self.push(simd, &minus, axis.value.times(-force));
-                self.push(simd, &axis, apart.times(force));
-                without * speed
-            }
+            SystemLoad::Slider { axis, between, law } => self.slide(simd, acting, (*axis, *between), law),
             SystemLoad::Force { body, local, force, frame } => {
                 let force = self.given(simd, acting, *body, force, *frame);
                 let at = WidePlacement::load(simd, &self.bodies[*body].place);
@@ -157,6 +144,31 @@ impl TreeLanes {
                 moment.dot(WideVector::load(simd, &self.bodies[*body].velocity[0]))
             }
         }
+    }
+
+    /// Adds a load along the axis of a joint.
+    #[inline(always)]
+    fn slide<S: Simd>(
+        &mut self,
+        simd: S,
+        acting: &Acting,
+        (axis, between): (FeatureId, Difference),
+        law: &ForceLaw,
+    ) -> Wide<S> {
+        let system = acting.system;
+        let axis = self.feature(simd, system, axis);
+        let plus = self.feature(simd, system, between.plus);
+        let minus = match between.minus {
+            Some(id) => self.feature(simd, system, id),
+            None => self.origin(simd),
+        };
+        let (apart, rate) = (plus.value - minus.value, plus.rate - minus.rate);
+        let speed = axis.value.dot(rate) + axis.rate.dot(apart);
+        let (force, without) = acting.law(simd, law, axis.value.dot(apart), speed);
+        self.push(simd, &plus, axis.value.times(force));
+        self.push(simd, &minus, axis.value.times(-force));
+        self.push(simd, &axis, apart.times(force));
+        without * speed
     }
 
     /// A prescribed force or moment in the world.
