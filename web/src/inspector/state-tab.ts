@@ -97,6 +97,19 @@ const FIGURES: { label: () => string; about: () => string; of: (state: SessionSt
   },
 ];
 
+/** That a state is not of the moment that the picture shows: between two states the positions of bodies alone are recorded. */
+export function between(
+  state: SessionState,
+  { time, reviewing, moving }: { time: number; reviewing: boolean; moving: boolean },
+): string {
+  return !reviewing || moving || state.time === time
+    ? ""
+    : t(
+        "The picture shows {shown}. Energy, errors and coordinates are kept at some moments only: those here are of {time}, the last before it. Bodies are told at the picture’s time.",
+        { shown: seconds(time), time: seconds(state.time) },
+      );
+}
+
 export class StateTab implements Panel {
   readonly root: HTMLElement;
   private readonly figures = FIGURES.map(({ label, about }) => figure(label(), about()));
@@ -116,6 +129,8 @@ export class StateTab implements Panel {
     hidden: true,
     onclick: () => this.showAll(),
   });
+  /** That the picture shows another moment. */
+  private readonly when = h("p", { class: "when", role: "note", hidden: true });
   private limit = FIRST_ROWS;
   /** Names of the coordinates. */
   private names: string[] | undefined;
@@ -124,7 +139,7 @@ export class StateTab implements Panel {
 
   constructor(private readonly session: Session) {
     const figures = h("dl", { class: "figures" }, ...this.figures.map((item) => item.root));
-    this.root = h("div", { class: "stack" }, figures, this.notes, this.table.root, this.more);
+    this.root = h("div", { class: "stack" }, this.when, figures, this.notes, this.table.root, this.more);
   }
 
   refresh(): void {
@@ -135,6 +150,9 @@ export class StateTab implements Panel {
       const found = this.figures[k];
       if (found) setText(found.value, of(state));
     });
+    const elsewhere = between(state, this.session);
+    this.when.hidden = elsewhere === "";
+    setText(this.when, elsewhere);
     const notes = state.notes ?? [];
     this.notes.hidden = notes.length === 0;
     if (this.noted !== notes.join("\n")) {

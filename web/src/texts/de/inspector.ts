@@ -283,6 +283,8 @@ export const inspector = {
   "Fit the arrows": "Pfeile anpassen",
   "Forces: selected joint, all joints, none": "Kräfte: gewähltes Gelenk, alle Gelenke, keine",
   "At {time}.": "Bei {time}.",
+  "The picture shows {shown}. Energy, errors and coordinates are kept at some moments only: those here are of {time}, the last before it. Bodies are told at the picture’s time.":
+    "Das Bild zeigt {shown}. Energie, Fehler und Koordinaten werden nur in manchen Augenblicken aufbewahrt: Die hier sind von {time}, dem letzten davor. Körper werden zum Zeitpunkt des Bildes angegeben.",
   "No joints": "Keine Gelenke",
   "This scene has no joint, hence no multiplier that is a joint force.":
     "Diese Szene hat kein Gelenk, also keinen Multiplikator, der eine Gelenkkraft ist.",
