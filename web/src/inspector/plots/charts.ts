@@ -1,6 +1,6 @@
 // What can be plotted of a run: energy, constraint violation, errors, the motion of each body, the reaction of each joint.
 
-import type { Accuracy, SessionState } from "../../api/types";
+import type { Accuracy, Reactions, SessionState } from "../../api/types";
 import { t } from "../../core/texts";
 import { type Frame, motionIn, reactionIn } from "../../session/track";
 
@@ -13,6 +13,23 @@ export interface Curve {
   inFrame?: (frame: Frame) => number;
   /** Its estimated error, where there is one: the plot shows it as a band. */
   error?: keyof Accuracy;
+  /** The component of a reaction that it shows. */
+  reaction?: { joint: string; what: "force" | "moment"; axis: number };
+  /** Whether that is not unique: one of many ways to share a load. */
+  shared?: boolean;
+}
+
+/** A curve's name in a legend: what is not unique is marked as in the table of reactions. */
+export const labelOf = (curve: Curve): string => (curve.shared ? `≈ ${curve.label}` : curve.label);
+
+/** Marks the curves of reactions that are not unique. */
+export function markShared(charts: Chart[], { reactions }: Reactions): void {
+  for (const curve of charts.flatMap((chart) => quantities(chart))) {
+    const { reaction } = curve;
+    if (!reaction) continue;
+    const entry = reactions.find(({ joint }) => joint === reaction.joint);
+    curve.shared = entry?.[reaction.what][reaction.axis]?.unique === false;
+  }
 }
 
 /** Curves that share one plot. */
@@ -131,7 +148,7 @@ function ofJoint(joint: string, on: string, at: number): Chart[] {
       (s, k) => s.forces[at]?.[what][k],
       what,
       (frame, k) => reactionIn(frame, at, what, k),
-    );
+    ).map((curve, axis) => ({ ...curve, reaction: { joint, what, axis } }));
   const force = reaction("F", "N", "force");
   return [
     { label: t("Force in {joint} on {on}", { joint, on }), curves: force },

@@ -2,7 +2,7 @@
 
 import { sci } from "../../core/format";
 import { t } from "../../core/texts";
-import type { Chart, Curve } from "./charts";
+import { type Chart, type Curve, labelOf } from "./charts";
 import { type Columns, difference, resample } from "./compare";
 import { type Known, type Samples, samplesOf } from "./samples";
 import type { Line } from "./svg-file";
@@ -96,7 +96,7 @@ export function compare(
     const now = samples.of(curve);
     const color = COLORS[k % COLORS.length] ?? "--ink";
     const dash = DASHES[k % DASHES.length] ?? [];
-    const line: Line = { label: curve.label, unit: curve.unit, values: now, color, dash };
+    const line: Line = { label: labelOf(curve), unit: curve.unit, values: now, color, dash };
     if (curve.error) line.errors = samples.errors(curve);
     const others = overlays.flatMap((overlay, at): Line[] => {
       const known = overlay.of(chart, curve, k);

@@ -1,5 +1,6 @@
 // Curves over time from the states that arrived. A click in a plot moves the page's clock.
 
+import { api } from "../../api/client";
 import type { SessionState } from "../../api/types";
 import { h, saveFile, setText } from "../../core/dom";
 import { num, sci, seconds } from "../../core/format";
@@ -10,7 +11,7 @@ import { keptGhost } from "../../stage/ghosts";
 import { empty } from "../../ui/notice";
 import type { Panel } from "../../ui/panel";
 import { type LiveTable, liveTable } from "../../ui/table";
-import { type Chart, charts, errorOf, quantities } from "./charts";
+import { type Chart, charts, errorOf, labelOf, markShared, quantities } from "./charts";
 import { columnsOf } from "./compare";
 import { ExtremeMarks } from "./marks";
 import { type Comparison, compare, keptRun, type Overlay, reference } from "./overlay";
@@ -34,6 +35,16 @@ export class PlotsTab implements Panel {
     { class: "help", hidden: true },
     t("Discs mark what is known of the curves; a thin line only joins those that are far apart."),
   );
+  /** What ≈ means. */
+  private readonly shared = h(
+    "p",
+    { class: "help", hidden: true },
+    t(
+      "≈ marks what is not unique: joints whose rows depend on each other may share their load in other ways too.",
+    ),
+  );
+  /** The run whose reactions were asked for, to know which are unique. */
+  private askedFor = "";
   /** The values at the time that is shown. */
   private readonly readout = h("p", { class: "readout" });
   private readonly table = h("details", { class: "as-table" }, h("summary", null, t("The same as a table")));
@@ -108,8 +119,10 @@ export class PlotsTab implements Panel {
     const values = quantities(chart).map((curve) => {
       const error = errorOf(curve, state);
       const within = error === undefined ? "" : ` ± ${sci(error, 1)}`;
-      return `${curve.label} = ${num(curve.of(state), 6)}${within} ${curve.unit}`.trim();
+      return `${labelOf(curve)} = ${num(curve.of(state), 6)}${within} ${curve.unit}`.trim();
     });
+    this.askWhichAreUnique(chart, state);
+    this.shared.hidden = !quantities(chart).some((curve) => curve.shared);
     this.readout.textContent = t("At {time}: {values}", {
       time: seconds(state.time),
       values: values.join(",  "),
@@ -151,6 +164,7 @@ export class PlotsTab implements Panel {
       ),
       this.canvas,
       this.joined,
+      this.shared,
       this.marks.root,
       this.apart,
       this.readout,
@@ -167,10 +181,25 @@ export class PlotsTab implements Panel {
     const bodies = state.bodies.map((body) => body.name).join("|");
     if (bodies === this.bodies && this.available.length > 0) return;
     this.bodies = bodies;
+    this.askedFor = "";
     this.available = charts(state);
     this.select.replaceChildren(
       ...this.available.map((entry, at) => h("option", { value: String(at) }, entry.label)),
     );
+  }
+
+  /** Asks once for a run, and as soon as a reaction is looked at, which reactions are unique; of large scenes nobody knows. */
+  private askWhichAreUnique(chart: Chart, state: SessionState): void {
+    const run = `${state.id}@${state.changes}`;
+    if (run === this.askedFor || !quantities(chart).some((curve) => curve.reaction)) return;
+    this.askedFor = run;
+    api
+      .reactions(state.links.self, { ...this.session.convention, in: "world" })
+      .then((found) => {
+        markShared(this.available, found);
+        this.refresh();
+      })
+      .catch(() => undefined);
   }
 
   private draw(chart: Chart, samples: Samples): void {
@@ -187,6 +216,7 @@ export class PlotsTab implements Panel {
         theme,
         String(lines.length),
         String(lines.filter((line) => line.errors?.length).length),
+        lines.map((line) => line.label).join(),
         this.kept?.name ?? "",
         this.reference?.name ?? "",
         this.mode.value,
@@ -216,10 +246,15 @@ export class PlotsTab implements Panel {
 
   private fillTable(chart: Chart, { times, of }: Samples): void {
     if (!this.table.open) return;
-    if (this.rows?.label !== chart.label) {
+    const key = [chart.label, ...quantities(chart).map(labelOf)].join("|");
+    if (this.rows?.label !== key) {
       this.rows?.table.root.remove();
-      const columns = quantities(chart).map(({ label, unit }) => ({ label, unit, number: true }));
-      this.rows = { table: liveTable(chart.label, t("Time"), columns, true), label: chart.label };
+      const columns = quantities(chart).map((curve) => ({
+        label: labelOf(curve),
+        unit: curve.unit,
+        number: true,
+      }));
+      this.rows = { table: liveTable(chart.label, t("Time"), columns, true), label: key };
       this.table.append(this.rows.table.root);
     }
     const stride = Math.max(1, Math.ceil(times.length / TABLE_ROWS));
@@ -282,7 +317,7 @@ export class PlotsTab implements Panel {
     const { times, of } = samplesOf(chart, this.session);
     const columns = quantities(chart).map(of);
     const lines = [
-      [t("time"), ...quantities(chart).map((curve) => curve.label)].join(","),
+      [t("time"), ...quantities(chart).map(labelOf)].join(","),
       ["s", ...quantities(chart).map((curve) => curve.unit || "1")].join(","),
       ...times.map((time, k) => [time, ...columns.map((column) => written(column[k] ?? NaN))].join(",")),
     ];

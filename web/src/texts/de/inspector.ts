@@ -347,6 +347,8 @@ export const inspector = {
   "Mark the extremes": "Extreme markieren",
   "{curve} {kind} {value} at {time}": "{curve} {kind} {value} bei {time}",
   "{curve} {kind} about {value} near {time}": "{curve} {kind} etwa {value} um {time}",
+  "≈ marks what is not unique: joints whose rows depend on each other may share their load in other ways too.":
+    "≈ markiert, was nicht eindeutig ist: Gelenke, deren Zeilen voneinander abhängen, können ihre Last auch anders teilen.",
   "Discs mark what is known of the curves; a thin line only joins those that are far apart.":
     "Scheiben markieren, was von den Kurven bekannt ist; eine dünne Linie verbindet nur, was weit auseinanderliegt.",
   "{y} over {x}": "{y} über {x}",
