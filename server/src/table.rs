@@ -9,9 +9,11 @@ use triad_lab::csv::quoted;
 
 use crate::problem::Problem;
 
-/// Refuses to write errors that are not estimated; `hint` says what lets them be.
-pub fn with_errors(settings: &Settings, hint: &str) -> Result<(), Problem> {
-    if settings.error_estimate || !settings.tells_errors() {
+/// Refuses to write errors that are not estimated, be it that a command or, where it has not `asked`, the scene chooses them; `hint`
+/// says what lets them be.
+pub fn with_errors(settings: &Settings, asked: bool, hint: &str) -> Result<(), Problem> {
+    let lost = asked && !settings.error_estimate && settings.tells_errors();
+    if !lost && !settings.misses_errors() {
         return Ok(());
     }
     let detail = "the outputs hold errors, but the run carries no estimate of them along";

@@ -109,13 +109,14 @@ impl Options {
             let read =
                 |word: &String| word.parse::<Output>().map_err(|error| Refusal::word("outputs", word, error));
             settings.outputs = outputs.iter().map(read).collect::<Result<_, _>>()?;
-            if !settings.error_estimate && settings.tells_errors() {
-                return Err(Refusal::new(
-                    "no-errors",
-                    "the outputs hold errors, but the run carries no estimate of them along",
-                    "leave estimate=False out (and \"error_estimate\": false in the scene), or errors out of outputs",
-                ));
-            }
+        }
+        let lost = self.outputs.is_some() && !settings.error_estimate && settings.tells_errors();
+        if lost || settings.misses_errors() {
+            return Err(Refusal::new(
+                "no-errors",
+                "the outputs hold errors, but the run carries no estimate of them along",
+                "leave estimate=False out (and \"error_estimate\": false in the scene), or errors out of outputs",
+            ));
         }
         Ok(())
     }

@@ -89,7 +89,7 @@ impl Output {
     }
 
     /// Whether a list is that.
-    pub(crate) fn are_usual(list: &[Self]) -> bool {
+    pub fn are_usual(list: &[Self]) -> bool {
         list == Self::usual()
     }
 }

@@ -39,6 +39,11 @@ impl Settings {
     pub fn tells_errors(&self) -> bool {
         self.outputs.iter().any(|output| output.kind == OutputKind::Errors)
     }
+
+    /// Whether errors were chosen that are not estimated. The usual outputs are no choice: they hold errors where there are some.
+    pub fn misses_errors(&self) -> bool {
+        !self.error_estimate && self.tells_errors() && !Output::are_usual(&self.outputs)
+    }
 }
 
 impl Default for Settings {

@@ -64,13 +64,15 @@ async fn table(
         let settings = &mut scene.simulation;
         settings.every = asked.every.unwrap_or(settings.every);
         settings.duration = asked.until.unwrap_or(settings.duration);
-        if !asked.outputs.is_empty() {
+        let chosen = !asked.outputs.is_empty();
+        if chosen {
             settings.outputs = asked.outputs;
-            with_errors(
-                settings,
-                "leave \"error_estimate\": false out of the scene, or errors out of the outputs",
-            )?;
         }
+        with_errors(
+            settings,
+            chosen,
+            "leave \"error_estimate\": false out of the scene, or errors out of the outputs",
+        )?;
         written(&scene, app.limits.command_time, wanted)
     };
     let text = work.run(job).await?;

@@ -163,9 +163,9 @@ fn plan(options: &Options) -> Result<SweepPlan, Problem> {
     settings.tolerance = options.tolerance.unwrap_or(settings.tolerance);
     settings.integrator = options.integrator.unwrap_or(settings.integrator);
     settings.error_estimate &= !options.no_estimate;
-    if !options.outputs.is_empty() {
+    let asked = !options.outputs.is_empty();
+    if asked {
         settings.outputs.clone_from(&options.outputs);
-        with_errors(settings, LEAVE_OUT)?;
     }
     let varied = options.vary.iter().map(|text| variation(&scene, text)).collect::<Result<_, _>>()?;
     Ok(SweepPlan { varied, samples: options.samples, seed: options.seed, ..SweepPlan::with_errors(scene) })
@@ -176,6 +176,7 @@ fn plan(options: &Options) -> Result<SweepPlan, Problem> {
 fn replaced(options: &Options, scene: &Scene) -> Result<Vec<String>, Problem> {
     let Ok(simulation) = Simulation::new(scene) else { return Ok(Vec::new()) };
     if options.integrator.is_some() {
+    with_errors(settings, asked, LEAVE_OUT)?;
         as_asked(&simulation)?;
     }
     Ok(simulation.notes().iter().filter(|note| note.starts_with("runs by ")).cloned().collect())

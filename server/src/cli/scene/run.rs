@@ -28,8 +28,8 @@ use crate::table::with_errors;
 /// Samples that are encoded together.
 const BATCH: usize = 256;
 /// What lets errors be written.
-pub(in crate::cli) const LEAVE_OUT: &str =
-    "leave --no-estimate out (and \"error_estimate\": false in the scene), or errors out of --outputs";
+pub(in crate::cli) const LEAVE_OUT: &str = "leave --no-estimate out (and \"error_estimate\": false in the scene), or errors out of \
+                                            --outputs (and of \"outputs\" there)";
 /// A turn between two pictures, rad, from which on a straight line between them is no longer like the motion.
 const COARSE: f64 = 0.8;
 /// Rows that a table or recording may have.
@@ -89,9 +89,12 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
     simulation.constraint_method = options.treatment.unwrap_or(simulation.constraint_method);
     simulation.step = options.step.or(simulation.step);
     simulation.error_estimate &= !options.no_estimate;
-    if !options.outputs.is_empty() {
+    let asked = !options.outputs.is_empty();
+    if asked {
         simulation.outputs.clone_from(&options.outputs);
-        with_errors(simulation, LEAVE_OUT)?;
+    }
+    if asked || options.out.is_some() {
+        with_errors(simulation, asked, LEAVE_OUT)?;
     }
     let outputs = simulation.duration / simulation.every;
     if options.writes() && outputs > MAX_OUTPUTS {
