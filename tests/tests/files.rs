@@ -21,6 +21,69 @@ fn within(folder: &Path, name: &str) -> String {
 }
 
 #[test]
+fn no_file_is_replaced_and_no_stream_is_mixed() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| within(folder.path(), name);
+    let scene = file("scene.json");
+    let text = serde_json::to_string(&catalogue::scene("simple-pendulum").unwrap()).unwrap();
+    fs::write(&scene, &text).unwrap();
+    let around = format!("{}/sub/../a", folder.path().display());
+    fs::create_dir(folder.path().join("sub")).unwrap();
+    let urdf = file("robot.urdf");
+    fs::write(&urdf, "<robot name=\"r\"><link name=\"a\"/></robot>").unwrap();
+    let vary = "/bodies/0/mass=1:2:2";
+    let twice = "would both write";
+    let not_there = "[no-standard-output]";
+    let cases: [(&[&str], &str); 19] = [
+        (&["run", &scene, "--svg", &file("a"), "--html", &file("a")], twice),
+        (&["run", &scene, "--out", &file("a"), "--rrd", &around], twice),
+        (&["run", &scene, "--out", "-", "--svg", "-"], "--out and --svg would both write standard output"),
+        (&["run", &scene, "--svg", &scene], "--svg would replace"),
+        (&["run", &scene, "--out", "-", "--json"], "--out - and --json would both write to standard output"),
+        (&["run", &scene, "--rrd", "-"], not_there),
+        (&["sweep", &scene, "--vary", vary, "--out", &file("a"), "--svg", &file("a")], twice),
+        (&["sweep", &scene, "--vary", vary, "--out", &scene], "--out would replace"),
+        (&["sweep", &scene, "--vary", vary, "--svg", "-", "--json"], "same-file"),
+        (&["import", &urdf, "--out", &urdf], "--out would replace"),
+        (&["stress", "--quick", "--treatments", "--svg", &file("a"), "--markdown", &file("a")], twice),
+        (&["paper", "--bodies", "1", "--svg", "-", "--json"], "same-file"),
+        (&["bench", &scene, "--quick", "--out", "-"], not_there),
+        (&["export", "docs", "-"], not_there),
+        (&["export", "site", "-"], not_there),
+        (&["export", "gradescope", "screw", "-o", "-"], not_there),
+        (&["lesson", "new", "mine", "--into", "-"], not_there),
+        (&["class", "export", "-"], not_there),
+        (&["backup", "-"], not_there),
+    ];
+    for (line, words) in cases {
+        let (code, out, err) = said(line);
+        assert!(code == Some(3) && (out + &err).contains(words), "triad {}: {code:?}\n{err}", line.join(" "));
+    }
+    assert_eq!(fs::read_to_string(&scene).unwrap(), text, "the scene is as it was");
+    assert!(!folder.path().join("a").exists() && !Path::new("-").exists());
+    // What is no file is not replaced.
+    let (code, ..) = said(&["run", &scene, "--until", "0.1", "--svg", "/dev/null", "--html", "/dev/null"]);
+    assert_eq!(code, Some(0));
+}
+
+#[test]
+fn a_text_goes_to_standard_output_and_what_is_told_elsewhere() {
+    let pendulum = "simple-pendulum";
+    let vary = "/bodies/0/mass=1:2:2";
+    for (line, begin, end) in [
+        (vec!["run", pendulum, "--until", "0.1", "--svg", "-"], "<svg", "</svg>"),
+        (vec!["run", pendulum, "--until", "0.1", "--html", "-"], "<!doctype html>", "</html>"),
+        (vec!["sweep", pendulum, "--vary", vary, "--until", "0.1", "--svg", "-"], "<svg", "</svg>"),
+        (vec!["sweep", pendulum, "--vary", vary, "--until", "0.1", "--out", "-"], "run,", ""),
+    ] {
+        let (code, out, err) = said(&line);
+        let whole = out.to_lowercase().starts_with(begin) && out.trim_end().ends_with(end);
+        assert!(code == Some(0) && whole, "triad {}: {code:?}\n{out:.300}", line.join(" "));
+        assert!(err.contains(pendulum) && !err.contains("written"), "{err}");
+    }
+}
+
+#[test]
 fn errors_that_a_scene_chooses_and_does_not_estimate_are_not_left_out_without_a_word() {
     let folder = tempfile::tempdir().unwrap();
     let (path, table) = (within(folder.path(), "scene.json"), within(folder.path(), "a.csv"));

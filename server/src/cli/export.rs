@@ -9,7 +9,7 @@ use serde_json::json;
 use triad_lessons::Course;
 
 use super::course::autograder::{self, Autograder};
-use super::output::{unwritable, write};
+use super::output::{not_standard, unwritable, write};
 use super::terminal::{Outcome, counted, print_json, print_line};
 use crate::api;
 use crate::docs::Site;
@@ -55,6 +55,7 @@ pub(super) fn export(
 
 /// Writes the documentation into a folder.
 fn docs(dir: &Path, json: bool) -> Result<Outcome, Problem> {
+    not_standard("DIR", dir)?;
     let site = Site::new(&api::openapi(), None);
     let (mut count, mut bytes) = (0, 0);
     for (name, text) in site.files() {
@@ -74,6 +75,7 @@ fn docs(dir: &Path, json: bool) -> Result<Outcome, Problem> {
 
 /// Writes the course into an empty folder.
 fn site(dir: &Path, course: Course, json: bool) -> Result<Outcome, Problem> {
+    not_standard("DIR", dir)?;
     if fs::read_dir(dir).is_ok_and(|mut entries| entries.next().is_some()) {
         return Err(Problem::new(
             StatusCode::UNPROCESSABLE_ENTITY,

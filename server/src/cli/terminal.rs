@@ -1,6 +1,7 @@
 //! Printing for people and for machines.
 
 use std::io::{IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
@@ -21,9 +22,21 @@ pub(super) fn print_json(value: &impl Serialize) {
     }
 }
 
+/// Whether standard output holds a file, which must stay what it is.
+static TAKEN: AtomicBool = AtomicBool::new(false);
+
+/// Prints lines to the standard error from now on.
+pub(super) fn tell_on_stderr() {
+    TAKEN.store(true, Ordering::Relaxed);
+}
+
 /// Prints a line; a reader that has had enough (`| head`) is no error.
 pub(super) fn print_line(line: &str) {
-    drop(writeln!(std::io::stdout(), "{line}"));
+    if TAKEN.load(Ordering::Relaxed) {
+        drop(writeln!(std::io::stderr(), "{line}"));
+    } else {
+        drop(writeln!(std::io::stdout(), "{line}"));
+    }
 }
 
 /// `error:`, red where colours are shown.

@@ -9,7 +9,7 @@ use serde_json::json;
 use triad_lessons::{Course, Lesson};
 
 use crate::api::unknown_lesson;
-use crate::cli::output::write;
+use crate::cli::output::{not_standard, write};
 use crate::cli::terminal::{Outcome, counted, print_json, print_line};
 use crate::problem::Problem;
 use crate::variants::Variants;
@@ -153,6 +153,7 @@ pub(in crate::cli) fn new(slug: &str, into: &Path, json: bool) -> Result<Outcome
         let hint = "use small letters, digits and dashes, such as double-pendulum";
         return Err(Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "lesson-name", what, hint));
     }
+    not_standard("--into", into)?;
     let head = into.join("course.toml");
     let number = if head.exists() {
         let course = Course::load(into)?;
@@ -182,6 +183,7 @@ pub(in crate::cli) fn new(slug: &str, into: &Path, json: bool) -> Result<Outcome
 
 /// Writes a starter and its states.
 pub(in crate::cli) fn starter(course: &Course, options: &Starter, json: bool) -> Result<Outcome, Problem> {
+    not_standard("--out", &options.out)?;
     let lesson = Variants::default().of(find(course, &options.lesson)?, &options.student)?;
     let (name, text) = crate::api::starter_of(&lesson, &options.question, &options.language)?;
     let instances = crate::api::instances(&lesson, &options.question)?;

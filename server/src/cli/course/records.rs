@@ -11,7 +11,7 @@ use tokio::runtime::Builder;
 use tokio::sync::mpsc;
 
 use super::grades::{existing, file as present, kept_course};
-use crate::cli::output::unwritable;
+use crate::cli::output::{not_standard, unwritable};
 use crate::cli::terminal::{Outcome, counted, print_json, print_line};
 use crate::problem::Problem;
 use crate::store::{Copied, Location, Pieces, Query, Store, StoreError};
@@ -100,6 +100,7 @@ pub(in crate::cli) enum Class {
 
 /// Copies the gradebook.
 pub(in crate::cli) fn backup(options: &Backup, json: bool) -> Result<Outcome, Problem> {
+    not_standard("FILE", &options.file)?;
     run(async {
         let store = Store::at(existing(&options.of.database)?).await?;
         tell(&options.file, store.backup(&options.file).await?, json);
@@ -134,6 +135,9 @@ fn tell(file: &Path, copied: Copied, json: bool) {
 
 /// Exports, imports, copies or erases.
 pub(in crate::cli) fn class(command: Class, json: bool) -> Result<Outcome, Problem> {
+    if let Class::Export { file, .. } | Class::Copy { file, .. } = &command {
+        not_standard("FILE", file)?;
+    }
     run(async {
         match command {
             Class::Export { file, of } => {

@@ -12,7 +12,7 @@ use triad_lab::bench::{
 
 use super::raster::{RasterError, png};
 use crate::cli::clock::Clock;
-use crate::cli::output::{make_folder, write};
+use crate::cli::output::{make_folder, not_standard, write};
 use crate::cli::terminal::{Outcome, print_json, print_line, progress};
 use crate::problem::Problem;
 use crate::{reports, scenes};
@@ -92,6 +92,7 @@ pub(in crate::cli) fn bench(options: Bench, json: bool) -> Result<Outcome, Probl
             "leave --scenes out to see all of them",
         ));
     }
+    not_standard("--out", &folder)?;
     make_folder(&folder)?;
     let mut clock = Clock::start();
     let bar = progress("bench", 1.0, json);

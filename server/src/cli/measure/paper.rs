@@ -13,7 +13,7 @@ use triad_lab::paper::{
     CASES, Correlation, Counts, LinearAlgebra, PaperCase, PaperSystem, correlation, reference, run,
 };
 
-use crate::cli::output::write;
+use crate::cli::output::{Form, apart, write};
 use crate::cli::terminal::{Outcome, print_json, print_line, progress};
 use crate::problem::Problem;
 
@@ -79,6 +79,7 @@ pub(in crate::cli) fn paper(options: &Paper, json: bool) -> Result<Outcome, Prob
             "give --bodies 1 or more",
         ));
     }
+    apart(&[("--svg", options.svg.as_deref(), Form::Text)], json)?;
     let bar = progress("paper", cases.len() as f64, json);
     let mut rows = Vec::new();
     for (done, case) in cases.into_iter().enumerate() {

@@ -13,7 +13,7 @@ use triad_engine::VERSION;
 use triad_engine::scene::Scene;
 use triad_lab::stress::{self, CaseReport, StressCase, StressVerdict, TrialMethod};
 
-use crate::cli::output::{make_room, write};
+use crate::cli::output::{Form, apart, make_room, write};
 use crate::cli::terminal::{Outcome, print_json, print_line, progress};
 use crate::problem::Problem;
 
@@ -79,8 +79,11 @@ struct Column {
 
 /// Runs the suite.
 pub(in crate::cli) fn stress(options: &Stress, json: bool) -> Result<Outcome, Problem> {
-    for file in [&options.html, &options.svg, &options.markdown].into_iter().flatten() {
-        make_room(file)?;
+    let (html, svg, markdown) = (&options.html, &options.svg, &options.markdown);
+    let files = [("--html", html), ("--svg", svg), ("--markdown", markdown)];
+    apart(&files.map(|(option, file)| (option, file.as_deref(), Form::Text)), json)?;
+    for (_, file) in files {
+        file.as_deref().map_or(Ok(()), make_room)?;
     }
     if options.treatments {
         return treatments(options, json);

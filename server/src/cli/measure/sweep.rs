@@ -1,7 +1,7 @@
 //! `triad sweep`: many runs of one scene with varied numbers.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use axum::http::StatusCode;
@@ -18,7 +18,7 @@ use triad_lab::sweep::{
 use crate::cli::choice;
 use crate::cli::clock::Clock;
 use crate::cli::interrupt::Interrupt;
-use crate::cli::output::{make_room, write};
+use crate::cli::output::{Form, apart, is_standard, make_room, write};
 use crate::cli::scene::run::{LEAVE_OUT, as_asked};
 use crate::cli::terminal::{Outcome, TimeBar, counted, print_json, print_line, progress};
 use crate::problem::Problem;
@@ -111,6 +111,13 @@ impl From<SweepError> for Problem {
 /// Runs all, and tells what came out; what was done before Ctrl-C is kept.
 pub(in crate::cli) fn run(options: &Options, json: bool) -> Result<Outcome, Problem> {
     let mut clock = Clock::start();
+    let scene = Some(Path::new(&options.scene)).filter(|path| path.is_file());
+    let files = [
+        ("the scene", scene, Form::Read),
+        ("--out", options.out.as_deref(), Form::Text),
+        ("--svg", options.svg.as_deref(), Form::Text),
+    ];
+    apart(&files, json)?;
     let plan = plan(options)?;
     let count = plan.count()?;
     let replaced = replaced(options, &plan.scene)?;
@@ -149,7 +156,8 @@ pub(in crate::cli) fn run(options: &Options, json: bool) -> Result<Outcome, Prob
             print_line(&format!("  note                   {note}"));
         }
         print_line(&clock.line());
-        for file in [&options.out, &options.svg].into_iter().flatten() {
+        let files = [&options.out, &options.svg].into_iter().flatten();
+        for file in files.filter(|file| !is_standard(file)) {
             print_line(&format!("  written                {}", file.display()));
         }
     }

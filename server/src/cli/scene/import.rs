@@ -6,6 +6,7 @@ use clap::Args;
 use serde_json::json;
 use triad_urdf::{self as urdf, SideCar};
 
+use crate::cli::output::{Form, apart, write};
 use crate::cli::terminal::{Outcome, print_json, print_line};
 use crate::problem::Problem;
 use crate::scenes;
@@ -24,6 +25,12 @@ pub(in crate::cli) struct Import {
 
 /// Reads, converts, writes, and tells what was left out.
 pub(in crate::cli) fn import(options: &Import, json: bool) -> Result<Outcome, Problem> {
+    let files = [
+        ("the URDF", Some(options.urdf.as_path()), Form::Read),
+        ("--with", options.with.as_deref(), Form::Read),
+        ("--out", options.out.as_deref(), Form::Text),
+    ];
+    apart(&files, json)?;
     let text = scenes::read(&options.urdf, urdf::MAX_TEXT as u64)?;
     let side_car = match &options.with {
         None => SideCar::default(),
@@ -41,7 +48,7 @@ pub(in crate::cli) fn import(options: &Import, json: bool) -> Result<Outcome, Pr
         print_json(&json!({ "scene": imported.scene, "left_out": imported.left_out, "check": report }));
     }
     match &options.out {
-        Some(path) => crate::cli::output::write(path, written + "\n")?,
+        Some(path) => write(path, written + "\n")?,
         None if json => {}
         None => print_line(&written),
     }

@@ -1,12 +1,13 @@
 //! The options of `triad run`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use triad_engine::scene::{ConstraintMethod, IntegratorKind, Output};
 
 use super::source::Source;
 use crate::cli::choice;
+use crate::cli::output::Form;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Run {
@@ -59,7 +60,7 @@ pub(in crate::cli) struct Run {
     /// Write a recording for the rerun viewer.
     #[arg(long, value_name = "FILE.rrd")]
     pub(super) rrd: Option<PathBuf>,
-    /// Draw the mechanism as an SVG that moves by itself.
+    /// Draw the mechanism as an SVG that moves by itself; `-` for standard output, here and wherever a text is written.
     #[arg(long, value_name = "FILE.svg")]
     pub(super) svg: Option<PathBuf>,
     /// Write a page that plays the run by itself, without a server and without a network: some 300 kB, more for
@@ -72,6 +73,17 @@ pub(in crate::cli) struct Run {
 }
 
 impl Run {
+    /// What is read and written.
+    pub(super) fn files(&self) -> [(&'static str, Option<&Path>, Form); 5] {
+        [
+            ("the scene", self.source.file(), Form::Read),
+            ("--out", self.out.as_deref(), Form::Text),
+            ("--rrd", self.rrd.as_deref(), Form::Other),
+            ("--svg", self.svg.as_deref(), Form::Text),
+            ("--html", self.html.as_deref(), Form::Text),
+        ]
+    }
+
     /// Whether anything is written at the times of outputs.
     pub(super) fn writes(&self) -> bool {
         [&self.out, &self.rrd, &self.svg, &self.html].iter().any(|file| file.is_some())

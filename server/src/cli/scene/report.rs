@@ -2,12 +2,13 @@
 
 use serde_json::json;
 use triad_engine::VERSION;
-use triad_engine::run::{ReactionErrors, Simulation, SkippedItem, Summary};
+use triad_engine::run::{EventOccurrence, ReactionErrors, Simulation, SkippedItem, Summary};
 use triad_engine::scene::{IntegratorKind, Scene};
 use triad_lab::verify::Verification;
 
 use super::options::Run;
 use crate::cli::clock::Clock;
+use crate::cli::output::{Form, is_standard};
 use crate::cli::terminal::{print_json, print_line};
 use crate::problem::Problem;
 
@@ -61,37 +62,38 @@ pub(super) fn report(
         print_json(&document);
         return;
     }
-    // A table on standard output must stay a table.
-    let to_stderr = options.out.as_deref().is_some_and(|path| path.as_os_str() == "-");
-    let say = |line: &str| if to_stderr { eprintln!("{line}") } else { print_line(line) };
-    say(&format!("{}: {} s of {} s", scene.name, summary.time, scene.simulation.duration));
+    print_line(&format!("{}: {} s of {} s", scene.name, summary.time, scene.simulation.duration));
     // Without a step the figures would be those of the start.
     if stopped.is_none() || summary.steps > 0 {
-        say(&accuracy(&summary, reactions));
+        print_line(&accuracy(&summary, reactions));
         for line in figures(&summary, verified) {
-            say(&line);
+            print_line(&line);
         }
     }
     for note in &notes {
-        say(&format!("  note                   {note}"));
+        print_line(&format!("  note                   {note}"));
     }
-    say(&clock.line());
+    print_line(&clock.line());
     for event in simulation.events() {
-        let end = if event.stop { "; the run ends there" } else { "" };
-        say(&format!(
-            "  event                  {} at {:.15} s, rate {:.9}{end}",
-            event.name, event.time, event.rate
-        ));
+        print_line(&occurrence(event));
     }
     for line in left_out.iter().flatten().map(explanation) {
-        say(&line);
+        print_line(&line);
     }
-    for file in [&options.out, &options.rrd, &options.svg, &options.html].into_iter().flatten() {
-        say(&format!("  written                {}", file.display()));
+    let files = options.files().into_iter().filter(|(.., form)| *form != Form::Read);
+    for file in files.filter_map(|(_, file, _)| file).filter(|file| !is_standard(file)) {
+        print_line(&format!("  written                {}", file.display()));
     }
     if let Some(problem) = stopped {
         eprintln!("{} {problem}", crate::cli::terminal::error_label());
     }
+}
+
+/// An event with its time and rate.
+fn occurrence(event: &EventOccurrence) -> String {
+    let end = if event.stop { "; the run ends there" } else { "" };
+    let EventOccurrence { name, time, .. } = event;
+    format!("  event                  {name} at {time:.15} s, rate {}{end}", nine(event.rate))
 }
 
 /// The first of many names; all are in the JSON.
@@ -128,9 +130,19 @@ fn accuracy(s: &Summary, reactions: Option<ReactionErrors>) -> String {
     line
 }
 
+/// Nine places, or nine digits of what would be lost in them.
+fn nine(x: f64) -> String {
+    if x == 0.0 || x.abs() >= 1e-3 { format!("{:.9}", x + 0.0) } else { format!("{x:.9e}") }
+}
+
+/// The energy, of which there is none where it is but its drift.
+fn energy(s: &Summary) -> String {
+    nine(if s.energy.abs() <= s.energy_drift.abs() { 0.0 } else { s.energy })
+}
+
 fn figures(s: &Summary, verified: Option<&Verification>) -> Vec<String> {
     let mut lines = vec![
-        format!("  energy                 {:.9} J, drift {:.2e} J", s.energy, s.energy_drift),
+        format!("  energy                 {} J, drift {:.2e} J", energy(s), s.energy_drift),
         format!(
             "  constraint violation   {:.2e} position, {:.2e} velocity",
             s.position_violation, s.velocity_violation

@@ -17,7 +17,7 @@ use super::report::{Found, report};
 use super::table::Table;
 use crate::cli::clock::Clock;
 use crate::cli::interrupt::Interrupt;
-use crate::cli::output::{make_room, unwritable, write};
+use crate::cli::output::{apart, make_room, unwritable, write};
 use crate::cli::terminal::{Outcome, TimeBar, progress};
 use crate::motion::Film as RecordedFilm;
 use crate::page::playing;
@@ -38,6 +38,7 @@ const MAX_OUTPUTS: f64 = 1e7;
 /// Runs a scene to its end.
 pub(in crate::cli) fn run(options: &Run, json: bool) -> Result<Outcome, Problem> {
     let mut clock = Clock::start();
+    apart(&options.files(), json)?;
     let scene = scene(options)?;
     clock.lap("read");
     let model = Model::new(&scene).map_err(EngineError::from)?;

@@ -1,5 +1,7 @@
 //! Which scene a command is about, and in which coordinates.
 
+use std::path::Path;
+
 use clap::Args;
 use triad_engine::scene::{Coordinates, Scene};
 
@@ -23,6 +25,11 @@ impl Source {
         let mut scene = scenes::named_or_in_file(&self.scene)?;
         scene.coordinates = self.coordinates.unwrap_or(scene.coordinates);
         Ok(scene)
+    }
+
+    /// The file that it is read from, if it is no built-in one.
+    pub(super) fn file(&self) -> Option<&Path> {
+        Some(Path::new(&self.scene)).filter(|path| path.is_file())
     }
 
     /// What the choice of coordinates does not do, in sentences.

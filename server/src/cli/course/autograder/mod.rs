@@ -12,6 +12,7 @@ use serde_json::json;
 use triad_lessons::{Course, Lesson};
 
 use super::lesson::find;
+use crate::cli::output::not_standard;
 use crate::cli::terminal::{Outcome, counted, print_json, print_line};
 use crate::problem::Problem;
 use prairielearn::PrairieLearn;
@@ -69,6 +70,7 @@ pub(in crate::cli) fn export(what: &Autograder, course: &Course, json: bool) -> 
         Autograder::PrairieLearn { .. } => format!("{}-prairielearn", lesson.slug),
     };
     let out = common.out.clone().unwrap_or_else(|| name.into());
+    not_standard("-o", &out)?;
     if out.symlink_metadata().is_ok() {
         return Err(Problem::new(
             StatusCode::CONFLICT,
