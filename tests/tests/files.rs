@@ -116,3 +116,34 @@ fn errors_that_a_scene_chooses_and_does_not_estimate_are_not_left_out_without_a_
     write(true, Some(json!(["energy", "errors"])));
     assert_eq!((run(&[]).0, run(&["--no-estimate"]).0), (Some(0), Some(3)));
 }
+
+#[test]
+fn two_strengths_of_one_treatment_have_two_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_string_lossy().into_owned();
+    let strength = |x: u32| format!("{{\"kind\": \"baumgarte\", \"alpha\": {x}, \"beta\": {x}}}");
+    let (code, text, err) = said(&[
+        "bench",
+        "--quick",
+        "--scenes",
+        "simple-pendulum",
+        "--integrators",
+        "dop853",
+        "--tolerances",
+        "1e-4",
+        "--treatment",
+        &strength(10),
+        "--treatment",
+        &strength(5),
+        "--treatment",
+        &strength(50),
+        "--out",
+        &out,
+    ]);
+    assert_eq!(code, Some(0), "{err}");
+    let table = fs::read_to_string(folder.path().join("bench.csv")).unwrap();
+    for name in ["baumgarte", "baumgarte alpha=5 beta=5", "baumgarte alpha=50 beta=50"] {
+        assert!(text.lines().any(|line| line.contains(&format!("dop853 {name}  "))), "{name}: {text}");
+        assert!(table.contains(&format!(",dop853,{name},")), "{name}: {table}");
+    }
+}

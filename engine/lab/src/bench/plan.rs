@@ -62,12 +62,34 @@ pub struct Method {
     pub coordinates: Coordinates,
 }
 
+impl Method {
+    /// The constraint method, with the numbers that are not the usual ones of its kind.
+    pub fn treatment(&self) -> String {
+        let word = self.constraint_method.to_string();
+        let usual = word.parse().map_or_else(|_| Vec::new(), numbers);
+        let own = numbers(self.constraint_method).into_iter().filter(|number| !usual.contains(number));
+        own.fold(word, |words, (name, value)| format!("{words} {name}={value}"))
+    }
+}
+
+/// What a constraint method may be given, by the scene format's words.
+fn numbers(method: ConstraintMethod) -> Vec<(&'static str, f64)> {
+    match method {
+        ConstraintMethod::Projection | ConstraintMethod::Partitioning => Vec::new(),
+        ConstraintMethod::Baumgarte { alpha, beta } => vec![("alpha", alpha), ("beta", beta)],
+        ConstraintMethod::Penalty { alpha, omega, mu } => {
+            vec![("alpha", alpha), ("omega", omega), ("mu", mu)]
+        }
+        ConstraintMethod::AugmentedLagrangian { alpha } => vec![("alpha", alpha)],
+    }
+}
+
 impl fmt::Display for Method {
     /// The integrator, and whatever else is not the default.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.integrator)?;
         if self.constraint_method != ConstraintMethod::default() {
-            write!(f, " {}", self.constraint_method)?;
+            write!(f, " {}", self.treatment())?;
         }
         if self.coordinates != Coordinates::default() {
             write!(f, " {}", self.coordinates)?;

@@ -98,7 +98,7 @@ pub fn csv(runs: &[Measured]) -> String {
             "{},{},{},{},{:e},{},{:.9},{:.9},{:.3},{},{},{},{},{},{}",
             quoted(&run.scene),
             run.method.integrator,
-            run.method.constraint_method,
+            run.method.treatment(),
             run.method.coordinates,
             run.tolerance,
             run.error.map_or_else(String::new, |e| format!("{e:.3e}")),

@@ -140,7 +140,7 @@ fn told(run: &Measured) -> Value {
     json!({
         "scene": run.scene,
         "integrator": run.method.integrator,
-        "treatment": run.method.constraint_method.to_string(),
+        "treatment": run.method.treatment(),
         "coordinates": run.method.coordinates,
         "tolerance": run.tolerance,
         "error": run.error,
