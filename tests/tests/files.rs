@@ -20,6 +20,16 @@ fn within(folder: &Path, name: &str) -> String {
     folder.join(name).to_string_lossy().into_owned()
 }
 
+/// A pendulum a millionth of the usual one in length and mass.
+fn tiny() -> Value {
+    json!({
+        "name": "tiny", "gravity": [0, -9.81, 0],
+        "bodies": [{ "name": "bob", "mass": 1e-9, "inertia": { "principal": [1e-19, 1e-19, 1e-19] }, "position": [1e-5, -2e-5, 0] }],
+        "joints": [{ "name": "pin", "type": "revolute", "body_i": "ground", "body_j": "bob", "point": [0, 0, 0], "axis": [0, 0, 1] }],
+        "simulation": { "duration": 0.002, "every": 0.001 }
+    })
+}
+
 #[test]
 fn no_file_is_replaced_and_no_stream_is_mixed() {
     let folder = tempfile::tempdir().unwrap();
@@ -115,6 +125,44 @@ fn errors_that_a_scene_chooses_and_does_not_estimate_are_not_left_out_without_a_
     assert_eq!((run(&[]).0, sweep(&[]).0), (Some(0), Some(0)));
     write(true, Some(json!(["energy", "errors"])));
     assert_eq!((run(&[]).0, run(&["--no-estimate"]).0), (Some(0), Some(3)));
+}
+
+#[test]
+fn mechanisms_of_micrometres_keep_their_digits() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = within(folder.path(), "tiny.json");
+    fs::write(&path, tiny().to_string()).unwrap();
+    let line = |out: &str, words: &str| {
+        let found = out.lines().find(|line| line.contains(words));
+        found.unwrap_or_else(|| panic!("{words}: {out}")).to_owned()
+    };
+    let (_, out, _) = said(&["equilibrium", &path]);
+    // m g, and nothing of rounding beside it.
+    assert!(
+        line(&out, "force ").split_whitespace().eq(["force", "0.000000", "9.810000e-9", "0.000000", "N"]),
+        "{out}"
+    );
+    assert!(line(&out, "moment ").matches("0.000000").count() == 3, "{out}");
+    assert!(line(&out, "centre of mass").contains("-2.236068e-5, 0.000000) m"), "{out}");
+    let (_, out, _) = said(&["run", &path]);
+    assert!(
+        line(&out, "energy").contains("-1.962000000e-13 J") || line(&out, "energy").contains("-1.96200000"),
+        "{out}"
+    );
+}
+
+#[test]
+fn kinematics_tells_velocities_and_first_what_the_numbers_are_worth() {
+    let (_, out, _) = said(&["kinematics", "crank-rocker"]);
+    let lines: Vec<&str> = out.lines().take(9).collect();
+    assert!(lines[1].starts_with("  error: positions right to about "), "{out:.500}");
+    assert!(lines[3].starts_with("  crank: centre of mass ("), "{out:.500}");
+    // The motor turns at 5 rad/s, the centre of mass of the crank half a metre from it.
+    assert!(
+        lines[4].starts_with("    velocity (-0.")
+            && lines[4].ends_with("angular velocity (0.000000, 0.000000, 5.000000) rad/s"),
+        "{out:.500}"
+    );
 }
 
 #[test]

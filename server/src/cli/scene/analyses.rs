@@ -3,12 +3,10 @@
 use clap::{Args, ValueEnum};
 use triad_engine::EngineError;
 use triad_engine::analysis;
-use triad_engine::reactions::report::{
-    Convention, ExpressedIn, MomentReference, Reaction, ReactionReport, Side,
-};
+use triad_engine::reactions::report::{Convention, ExpressedIn, MomentReference, Side};
 use triad_engine::run::Simulation;
-use triad_engine::state::BodyFrame;
 
+use super::numbers::{Scale, digits, largest, triple};
 use super::source::Source;
 use super::worth::{Judged, Worth};
 use crate::cli::clock::{Clock, Timed};
@@ -105,74 +103,10 @@ pub(in crate::cli) fn reactions(
         print_json(&Timed { answer: &Judged { report: &report, worth }, seconds: &clock });
     } else {
         print_line(&format!("{}: reactions at t = {} s", scene.name, report.time));
-        print_reactions(&report);
+        Scale::of(&simulation.frame().bodies, &report).print_reactions(&report);
         worth.print();
     }
     Ok(Outcome::Done)
-}
-
-fn print_reactions(report: &ReactionReport) {
-    for reaction in &report.reactions {
-        print_reaction(reaction);
-    }
-    if report.redundancies.is_empty() {
-        print_line("  every reaction is unique");
-    } else {
-        print_line(&format!(
-            "  ~ marks what the equations of motion leave open (tolerance {:.0e}); the smallest such values are shown",
-            report.tolerance
-        ));
-    }
-    for redundancy in &report.redundancies {
-        print_line(&format!(
-            "  {} redundant rows are shared by {}",
-            redundancy.rows,
-            redundancy.joints.join(", ")
-        ));
-        for remedy in &redundancy.remedies {
-            print_line(&format!(
-                "    remedy: make \"{}\" a {} joint, which gives up {}",
-                remedy.joint, remedy.becomes, remedy.gives_up
-            ));
-        }
-    }
-}
-
-fn print_reaction(reaction: &Reaction) {
-    let line =
-        |what: &str, unit: &str, components: &[triad_engine::reactions::report::ReactionComponent; 3]| {
-            let numbers: Vec<String> = components
-                .iter()
-                .map(|c| format!("{}{:>14.6}", if c.unique { ' ' } else { '~' }, c.value + 0.0))
-                .collect();
-            print_line(&format!("    {what:<8}{} {unit}", numbers.concat()));
-        };
-    print_line(&format!(
-        "  {}{}: on \"{}\" by \"{}\", about {}, in {}",
-        if reaction.driver { "driver " } else { "" },
-        reaction.joint,
-        reaction.on,
-        reaction.by,
-        reaction.about,
-        reaction.expressed_in
-    ));
-    line("force", "N", &reaction.force);
-    line("moment", "N m", &reaction.moment);
-}
-
-fn triple(v: [f64; 3]) -> String {
-    format!("({:.6}, {:.6}, {:.6})", v[0] + 0.0, v[1] + 0.0, v[2] + 0.0)
-}
-
-fn print_bodies(scene: &triad_engine::Scene, frames: &[BodyFrame]) {
-    for (body, frame) in scene.bodies.iter().zip(frames) {
-        print_line(&format!(
-            "  {}: centre of mass {} m, u {}",
-            body.name,
-            triple(frame.position),
-            triple(frame.u)
-        ));
-    }
 }
 
 /// Static equilibrium near the start.
@@ -192,8 +126,9 @@ pub(in crate::cli) fn equilibrium(source: &Source, json: bool) -> Result<Outcome
         None => "undecided: some motion meets no stiffness",
     };
     print_line(&format!("{}: equilibrium after {} steps, {verdict}", scene.name, found.iterations));
-    print_bodies(&scene, &found.bodies);
-    print_reactions(&found.reactions);
+    let scale = Scale::of(&found.bodies, &found.reactions);
+    scale.print_bodies(&scene, &found.bodies);
+    scale.print_reactions(&found.reactions);
     Ok(Outcome::Done)
 }
 
@@ -216,21 +151,21 @@ pub(in crate::cli) fn modes(
     if let Some(steady) = &found.steady {
         print_line(&format!(
             "  in a frame that turns at {} rad/s and slides at {} m/s",
-            triple(steady.turning),
-            triple(steady.sliding)
+            triple(steady.turning, largest(&[steady.turning])),
+            triple(steady.sliding, largest(&[steady.sliding]))
         ));
         for spin in &steady.spins {
-            print_line(&format!("    {} spins in it at {:.6} rad/s", spin.body, spin.rate));
+            print_line(&format!("    {} spins in it at {} rad/s", spin.body, digits(spin.rate)));
         }
         // A start that is not steady may be far from the motion that is found.
         print_line("  where the bodies stand in it:");
-        print_bodies(&scene, &found.bodies);
+        Scale::of_places(&found.bodies).print_bodies(&scene, &found.bodies);
     }
     print_modes(&scene, &found);
     if found.left_out > 0 {
         print_line(&format!("  motions left out because they have no inertia: {}", found.left_out));
         for turns in &found.without_inertia {
-            let axes: Vec<String> = turns.axes.iter().map(|axis| triple(*axis)).collect();
+            let axes: Vec<String> = turns.axes.iter().map(|axis| triple(*axis, 1.0)).collect();
             print_line(&format!("    {} turns about {}", turns.body, axes.join(" and ")));
         }
     }
@@ -256,13 +191,17 @@ fn print_modes(scene: &triad_engine::Scene, found: &analysis::Modes) {
             let later = if later.as_flattened().iter().all(|x| x.abs() < LEAST) {
                 String::new()
             } else {
-                format!("; a quarter of a period later {} m, {} rad", triple(later[0]), triple(later[1]))
+                format!(
+                    "; a quarter of a period later {} m, {} rad",
+                    triple(later[0], 1.0),
+                    triple(later[1], 1.0)
+                )
             };
             print_line(&format!(
                 "    {}: moves {} m, turns {} rad{later}",
                 body.name,
-                triple(motion.translation),
-                triple(motion.rotation)
+                triple(motion.translation, 1.0),
+                triple(motion.rotation, 1.0)
             ));
         }
     }
@@ -271,11 +210,6 @@ fn print_modes(scene: &triad_engine::Scene, found: &analysis::Modes) {
             "  shapes: the largest component (m, or rad times the mechanism's length) is one; what moves is the centre of mass",
         );
     }
-}
-
-/// Six places, or six digits of what would be lost in them.
-fn digits(x: f64) -> String {
-    if x == 0.0 || (1e-3..1e7).contains(&x.abs()) { format!("{:.6}", x + 0.0) } else { format!("{x:.6e}") }
 }
 
 /// Half of the last place of a component that is printed.
@@ -293,11 +227,14 @@ pub(in crate::cli) fn kinematics(source: &Source, words: &Words, json: bool) -> 
         return Ok(Outcome::Done);
     }
     print_line(&format!(
-        "{}: {} positions, {} steps between them; Newton-Raphson moved none by more than {:.1e}",
+        "{}: {} positions, {} steps between them",
         scene.name,
         found.states.len(),
-        found.steps,
-        found.correction
+        found.steps
+    ));
+    print_line(&format!(
+        "  error: positions right to about {:.1e} m, axes to that part of their length: Newton-Raphson moved none by more",
+        found.correction.max(f64::EPSILON)
     ));
     for passed in &found.singularities {
         print_line(&format!(
@@ -309,8 +246,10 @@ pub(in crate::cli) fn kinematics(source: &Source, words: &Words, json: bool) -> 
     for event in &found.events {
         let end = if event.stop { "; the motion ends there" } else { "" };
         print_line(&format!(
-            "  event {} at t = {:.9} s, rate {:.9}{end}",
-            event.name, event.time, event.rate
+            "  event {} at t = {:.9} s, rate {}{end}",
+            event.name,
+            event.time,
+            digits(event.rate)
         ));
     }
     for note in &found.notes {
@@ -318,9 +257,10 @@ pub(in crate::cli) fn kinematics(source: &Source, words: &Words, json: bool) -> 
     }
     for state in &found.states {
         print_line(&format!("t = {:.6} s", state.time));
-        print_bodies(&scene, &state.bodies);
+        let scale = Scale::of(&state.bodies, &state.reactions);
+        scale.print_moving(&scene, &state.bodies);
         for driver in state.reactions.reactions.iter().filter(|r| r.driver) {
-            print_reaction(driver);
+            scale.print_reaction(driver);
         }
     }
     Ok(Outcome::Done)
@@ -341,12 +281,13 @@ pub(in crate::cli) fn assemble(source: &Source, keep: &[String], json: bool) -> 
         "{}: closed after {} steps; open by {:.3e} at the start, {:.3e} now",
         scene.name, found.iterations, found.violation, found.left
     ));
+    let reach = largest(&found.bodies.iter().map(|body| body.position).collect::<Vec<_>>());
     for body in &found.bodies {
         let q = body.quaternion;
         print_line(&format!(
             "  {}: position {} m, quaternion ({:.6}, {:.6}, {:.6}, {:.6}); moved {:.3e} m, turned {:.3e} rad",
             body.body,
-            triple(body.position),
+            triple(body.position, reach),
             q[0],
             q[1],
             q[2],
