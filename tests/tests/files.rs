@@ -195,3 +195,53 @@ fn two_strengths_of_one_treatment_have_two_names() {
         assert!(table.contains(&format!(",dop853,{name},")), "{name}: {table}");
     }
 }
+
+#[test]
+fn errors_of_reactions_stand_beside_drivers_and_forces_that_are_shared_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = within(folder.path(), "a.csv");
+    let head = |scene: &str, outputs: &str| {
+        let (code, _, err) = said(&["run", scene, "--until", "0.1", "--outputs", outputs, "--out", &table]);
+        assert_eq!(code, Some(0), "{err}");
+        let text = fs::read_to_string(&table).unwrap();
+        text.lines()
+            .filter(|line| !line.starts_with(|c: char| c == '-' || c.is_ascii_digit()))
+            .collect::<Vec<_>>()
+            .join("\n")
+    };
+    let of_drivers = head("crank-rocker", "drivers,errors");
+    assert!(of_drivers.contains("energy_error,force_error,moment_error"), "{of_drivers}");
+    let of_loads = head("car-axis", "loads,errors");
+    assert!(
+        of_loads.contains("No errors are estimated of what loads do.") && !of_loads.contains("moment_error"),
+        "{of_loads}"
+    );
+    let page = within(folder.path(), "a.html");
+    let shared = "not all forces that it shows are unique";
+    let (_, out, _) = said(&["run", "n-four-bar:1", "--until", "0.1", "--html", &page]);
+    assert!(out.contains(shared), "{out}");
+    let (_, out, _) = said(&["run", "spatial-slider-crank", "--until", "0.1", "--html", &page]);
+    assert!(!out.contains(shared), "{out}");
+    let picture = within(folder.path(), "a.svg");
+    let sweep = |outputs: &str| {
+        let line = [
+            "sweep",
+            "n-four-bar:1",
+            "--vary",
+            "/gravity/1=-9:-1:2",
+            "--until",
+            "0.1",
+            "--outputs",
+            outputs,
+            "--svg",
+            &picture,
+        ];
+        let (_, out, _) = said(&line);
+        (
+            out.contains("its reactions are not all unique"),
+            fs::read_to_string(&picture).unwrap().contains("(may not be unique)"),
+        )
+    };
+    assert_eq!(sweep("reactions"), (true, true));
+    assert_eq!(sweep("energy"), (false, false));
+}

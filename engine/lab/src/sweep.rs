@@ -52,6 +52,10 @@ pub struct Sweep {
     pub varied: Vec<String>,
     /// What is told of each run.
     pub columns: Vec<Column>,
+    /// Which of them are reactions of a mechanism in which not all are unique.
+    pub shared: Vec<bool>,
+    /// What is to be known of these, if there are any.
+    pub note: Option<&'static str>,
     /// The runs; those that were cancelled are left out.
     pub runs: Vec<SweepRun>,
 }
@@ -105,7 +109,9 @@ pub fn sweep(plan: &SweepPlan, threads: usize, watch: &impl Watch) -> Result<Swe
         runs.flatten().collect()
     });
     let varied = plan.varied.iter().map(|variation| variation.name.clone()).collect();
-    Ok(Sweep { varied, columns: outputs.columns().to_vec(), runs })
+    let columns = outputs.columns().to_vec();
+    let shared = (0..columns.len()).map(|column| outputs.may_be_shared(column)).collect();
+    Ok(Sweep { varied, columns, shared, note: outputs.shared_note(), runs })
 }
 
 /// What all runs of a sweep share. The varied numbers change neither names nor what is connected, so that the outputs are the

@@ -34,7 +34,7 @@ pub enum OutputKind {
     /// How far the constraints are violated.
     Violations,
     /// Estimated errors of what the row says, where they are estimated: of positions, directions, velocities and the energy, and of
-    /// reactions where these are among the outputs.
+    /// reactions where these or drivers are among the outputs; none of loads.
     Errors,
 }
 

@@ -11,6 +11,7 @@ use super::{ErrorEstimate, Simulation};
 use crate::integrate::add_power;
 use crate::scene::{Output, OutputKind};
 use nalgebra::Vector3;
+use std::ops::Range;
 use triad_dynamics::model::{BodyRef, DriverKind, ModelJoint};
 use triad_dynamics::state::State;
 
@@ -64,24 +65,41 @@ pub struct Outputs {
     columns: Vec<Column>,
     groups: Vec<Group>,
     conventions: Vec<String>,
+    /// Columns of reactions that may not be unique.
+    shared: Vec<Range<usize>>,
 }
 
 impl Outputs {
     /// For the outputs that the scene of a run chooses.
     pub fn new(run: &Simulation) -> Self {
-        let mut outputs = Self { columns: Vec::new(), groups: Vec::new(), conventions: Vec::new() };
+        let mut outputs =
+            Self { columns: Vec::new(), groups: Vec::new(), conventions: Vec::new(), shared: Vec::new() };
         for output in &run.model().settings.outputs {
             for group in groups(run, output) {
-                if !outputs.groups.contains(&group) {
-                    outputs.add(run, group);
+                if outputs.groups.contains(&group) {
+                    continue;
+                }
+                let before = outputs.columns.len();
+                outputs.add(run, group);
+                if run.is_redundant() && matches!(group, Group::Reaction(_) | Group::Driver { .. }) {
+                    outputs.shared.push(before..outputs.columns.len());
                 }
             }
         }
-        let reacts = |group: &Group| matches!(group, Group::Reaction(_) | Group::Driver { .. });
-        if run.mechanism.elimination.is_redundant() && outputs.groups.iter().any(reacts) {
-            outputs.tell_redundant();
-        }
+        outputs.tell_more();
         outputs
+    }
+
+    /// Whether a column holds a reaction, or its power, of a mechanism in which not all of them are unique.
+    pub fn may_be_shared(&self, column: usize) -> bool {
+        let reacts = |unit| ["N", "N m", "W"].contains(&unit);
+        self.shared.iter().any(|columns| columns.contains(&column))
+            && self.columns.get(column).is_some_and(|column| reacts(column.unit))
+    }
+
+    /// That not all reactions among the columns are unique, if that is so.
+    pub fn shared_note(&self) -> Option<&'static str> {
+        (!self.shared.is_empty()).then_some(columns::SHARED)
     }
 
     /// The columns, in their order.
@@ -147,7 +165,8 @@ fn groups(run: &Simulation, output: &Output) -> Vec<Group> {
         OutputKind::Balance => vec![Group::Balance],
         OutputKind::Violations => vec![Group::Violations],
         OutputKind::Errors if model.settings.error_estimate => {
-            let reactions = model.settings.outputs.iter().any(|output| output.kind == OutputKind::Reactions);
+            let react = |kind| matches!(kind, OutputKind::Reactions | OutputKind::Drivers);
+            let reactions = model.settings.outputs.iter().any(|output| react(output.kind));
             vec![Group::Errors { reactions: reactions && !system.constraints.is_empty() }]
         }
         OutputKind::Errors => Vec::new(),

@@ -72,6 +72,11 @@ impl Simulation {
         self.state().reactions(convention)
     }
 
+    /// Whether rows depend on each other, so that not all reactions are unique: [`Simulation::reactions`] tells which are.
+    pub fn is_redundant(&self) -> bool {
+        self.mechanism.elimination.is_redundant()
+    }
+
     /// How far the current state is from its constraints Φ = 0, each row relative to its size.
     pub fn violation(&self) -> violation::ConstraintViolation {
         violation::measure(self.system(), self.current.state(self.system()))

@@ -29,6 +29,8 @@ pub fn svg(sweep: &Sweep, column: usize) -> String {
     };
     let ((width, height), [left, right, _, _]) = (SIZE, MARGINS);
     let of = sweep.columns.get(column).map_or_else(String::new, |c| format!("{}, {}", c.name, c.unit));
+    let shared = sweep.shared.get(column).is_some_and(|shared| *shared);
+    let of = if shared { format!("{of} (may not be unique)") } else { of };
     let over = sweep.varied.first().map_or("run", String::as_str);
     let (of, over) = (escaped(&of), escaped(over));
     let mut out = format!(

@@ -120,7 +120,7 @@ pub(in crate::cli) fn run(options: &Options, json: bool) -> Result<Outcome, Prob
     apart(&files, json)?;
     let plan = plan(options)?;
     let count = plan.count()?;
-    let replaced = replaced(options, &plan.scene)?;
+    let mut notes = replaced(options, &plan.scene)?;
     let drawn = drawn(options, &plan)?;
     for file in [&options.out, &options.svg].into_iter().flatten() {
         make_room(file)?;
@@ -130,6 +130,7 @@ pub(in crate::cli) fn run(options: &Options, json: bool) -> Result<Outcome, Prob
     let watcher = Watcher { interrupt: Interrupt::listen(), done: AtomicUsize::new(0), bar };
     let found = sweep(&plan, options.threads, &watcher)?;
     drop(watcher);
+    notes.extend(found.note.map(str::to_owned));
     clock.lap("run");
     if let Some(path) = &options.out {
         write(path, table(&found))?;
@@ -147,12 +148,12 @@ pub(in crate::cli) fn run(options: &Options, json: bool) -> Result<Outcome, Prob
             "columns": found.columns.iter().map(|c| json!({"name": c.name, "unit": c.unit})).collect::<Vec<_>>(),
             "runs": found.runs.iter().map(told).collect::<Vec<_>>(),
             "cancelled": left,
-            "notes": replaced,
+            "notes": notes,
             "seconds": clock,
         }));
     } else {
         print(&plan.scene, &found, left);
-        for note in &replaced {
+        for note in &notes {
             print_line(&format!("  note                   {note}"));
         }
         print_line(&clock.line());
@@ -175,6 +176,7 @@ fn plan(options: &Options) -> Result<SweepPlan, Problem> {
     if asked {
         settings.outputs.clone_from(&options.outputs);
     }
+    with_errors(settings, asked, LEAVE_OUT)?;
     let varied = options.vary.iter().map(|text| variation(&scene, text)).collect::<Result<_, _>>()?;
     Ok(SweepPlan { varied, samples: options.samples, seed: options.seed, ..SweepPlan::with_errors(scene) })
 }
@@ -184,7 +186,6 @@ fn plan(options: &Options) -> Result<SweepPlan, Problem> {
 fn replaced(options: &Options, scene: &Scene) -> Result<Vec<String>, Problem> {
     let Ok(simulation) = Simulation::new(scene) else { return Ok(Vec::new()) };
     if options.integrator.is_some() {
-    with_errors(settings, asked, LEAVE_OUT)?;
         as_asked(&simulation)?;
     }
     Ok(simulation.notes().iter().filter(|note| note.starts_with("runs by ")).cloned().collect())

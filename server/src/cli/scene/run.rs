@@ -245,6 +245,9 @@ struct Outputs {
     film: Option<(PathBuf, Film)>,
     /// A page that plays, and what it will show.
     page: Option<(PathBuf, RecordedFilm)>,
+    /// Whether not all reactions are unique.
+    shared: bool,
+    notes: Vec<String>,
 }
 
 impl Outputs {
@@ -254,6 +257,9 @@ impl Outputs {
             make_room(path)?;
             table = Some(Table::create(path, simulation)?);
         }
+        let shared = simulation.is_redundant();
+        let recorded = [options.rrd.as_ref().map(|path| path.display().to_string()), options.rerun.clone()];
+        let notes = recorded.into_iter().flatten().filter(|_| shared).map(|of| shared_note(&of)).collect();
         let mut recorders = Vec::new();
         let id = uuid::Uuid::new_v4().simple().to_string();
         if let Some(path) = &options.rrd {
@@ -279,7 +285,7 @@ impl Outputs {
             make_room(path)?;
             page = Some((path.clone(), RecordedFilm::new(scene, simulation)));
         }
-        Ok(Self { table, recorders, waiting: Vec::new(), film, page })
+        Ok(Self { table, recorders, waiting: Vec::new(), film, page, shared, notes })
     }
 
     fn write(&mut self, simulation: &Simulation) -> Result<(), Problem> {
@@ -313,13 +319,15 @@ impl Outputs {
     /// Writes what is still held back, and says what pictures do not show.
     fn finish(&mut self) -> Result<Vec<String>, Problem> {
         self.encode()?;
-        let mut notes = Vec::new();
+        let mut notes = std::mem::take(&mut self.notes);
         if let Some((path, film)) = self.page.take() {
             let forces = film.tells_forces();
             let (motion, coarse) = film.developed();
             notes.extend(coarse_note(&path, coarse));
             if forces && motion.joints.is_empty() {
                 notes.push(format!("{} has no room for the forces of so many joints", path.display()));
+            } else if forces && self.shared {
+                notes.push(shared_note(&path.display().to_string()));
             }
             write(&path, playing(&motion)?)?;
         }
@@ -335,6 +343,14 @@ impl Outputs {
         }
         Ok(notes)
     }
+}
+
+/// That not all forces of a picture are unique.
+fn shared_note(picture: &str) -> String {
+    format!(
+        "{picture}: not all forces that it shows are unique, as rows of this mechanism depend on each other; triad reactions tells \
+         which are"
+    )
 }
 
 /// That the way from one picture to the next is more than a straight line shows.

@@ -8,6 +8,10 @@ use triad_dynamics::model::{BodyRef, DriverKind, LoadKind};
 /// Names of the components of a vector.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// That not all reactions are determined.
+pub(super) const SHARED: &str = "Rows of this mechanism depend on each other, so that its reactions are not all unique: triad reactions \
+                                 tells which numbers are; the others may differ here from the smallest ones, which it shows.";
+
 impl Outputs {
     /// Adds the columns of a group.
     pub(super) fn add(&mut self, run: &Simulation, group: Group) {
@@ -83,7 +87,11 @@ impl Outputs {
         for (of, unit) in of_state.into_iter().chain(of_reactions.into_iter().filter(|_| reactions)) {
             self.column(format!("{of}_error"), unit);
         }
-        let about = "position_error to moment_error: estimated errors, each the largest of all bodies or joints; NaN where unknown.";
+        let about = if reactions {
+            "position_error to moment_error: estimated errors, each the largest of all bodies or joints; NaN where unknown."
+        } else {
+            "position_error to energy_error: estimated errors, each the largest of all bodies; NaN where unknown."
+        };
         self.convention(about.to_owned());
     }
 
@@ -129,11 +137,16 @@ impl Outputs {
         }
     }
 
-    /// That not all reactions are determined.
-    pub(super) fn tell_redundant(&mut self) {
-        let sentence = "Rows of this mechanism depend on each other, so that its reactions are not all unique: triad reactions tells \
-                        which numbers are; the others may differ here from the smallest ones, which it shows.";
-        self.convention(sentence.to_owned());
+    /// What is to be known of the columns together.
+    pub(super) fn tell_more(&mut self) {
+        if let Some(note) = self.shared_note() {
+            self.convention(note.to_owned());
+        }
+        let has = |wanted: fn(&Group) -> bool| self.groups.iter().any(wanted);
+        if has(|group| matches!(group, Group::Load(_))) && has(|group| matches!(group, Group::Errors { .. }))
+        {
+            self.convention("No errors are estimated of what loads do.".to_owned());
+        }
     }
 
     fn reaction(&mut self, run: &Simulation, index: usize) {
