@@ -67,6 +67,13 @@ fn flat(integrator: &str) -> Value {
     })
 }
 
+fn at_rest(mut scene: Scene) -> Scene {
+    for body in &mut scene.bodies {
+        (body.velocity, body.angular_velocity) = Default::default();
+    }
+    scene
+}
+
 /// The error with which a scene's run ends, or does not begin.
 fn run_error(scene: &Scene) -> EngineError {
     let mut run = match Simulation::new(scene) {
@@ -313,7 +320,7 @@ fn runs_that_cannot_go_on() {
 #[test]
 fn analyses_without_a_result() {
     let mut met = Refusals::new(variants!(
-        AnalysisError: Engine, TooLarge, NoEquilibrium, NoSteadyMotion, NoModes, Free, Spins, SingularStart, Unreachable, BranchLost,
+        AnalysisError: Engine, TooLarge, NoEquilibrium, NoSteadyMotion, TooManySpins, NoModes, Free, Spins, SingularStart, Unreachable, BranchLost,
         TooManyPositions, Pinned, NoLongerWanted
     ));
     let mut meet =
@@ -323,6 +330,8 @@ fn analyses_without_a_result() {
         "equilibrium of a scene without bodies",
         &equilibrium(&scene(&with("/bodies", json!([])))).unwrap_err(),
     );
+    let chain = at_rest(builtin("spatial-chain:100"));
+    meet("steady motion of 100 links at rest", &modes(&chain, ModesAbout::Steady).unwrap_err());
     meet("equilibrium of 201 bodies", &equilibrium(&builtin("spatial-chain:201")).unwrap_err());
     meet("equilibrium of a body that falls", &equilibrium(&builtin("free-fall")).unwrap_err());
     let error = modes(&pushed("auto", json!({"kind": "projection"})), ModesAbout::Steady).unwrap_err();

@@ -71,6 +71,17 @@ pub enum AnalysisError {
         /// What stands against it.
         reason: String,
     },
+    /// More bodies that may spin about themselves than a steady motion is looked for with.
+    #[error(
+        "a steady motion keeps the momentum of each spin, and its search takes work that grows with the fourth power of the size: \
+         {spins} bodies that are alike around an axis, with {freedoms} degrees of freedom, are too many"
+    )]
+    TooManySpins {
+        /// Bodies that are alike around an axis.
+        spins: usize,
+        /// Degrees of freedom of the scene.
+        freedoms: usize,
+    },
     /// The QR algorithm did not converge.
     #[error("the eigenvalues of the small motions were not found")]
     NoModes,
@@ -168,6 +179,7 @@ impl AnalysisError {
         match self {
             Self::Engine(error) => error.code(),
             Self::TooLarge { .. } => "analysis-too-large",
+            Self::TooManySpins { .. } => "too-many-spins",
             Self::NoEquilibrium { .. } => "no-equilibrium",
             Self::NoSteadyMotion { .. } => "no-steady-motion",
             Self::NoModes => "no-modes",
@@ -186,7 +198,7 @@ impl AnalysisError {
     pub fn hint(&self) -> String {
         match self {
             Self::Engine(error) => return error.hint(),
-            Self::TooLarge { idle: None, .. } => "Analyse a part of the mechanism as a scene of its own.",
+            Self::TooLarge { idle: None, .. } | Self::TooManySpins { .. } => "Analyse a part of the mechanism as a scene of its own.",
             Self::TooLarge { idle: Some(_), .. } => {
                 "Take those turns away: in place of points on joints of the kind \"rod\", or of thin rods between spherical joints, \
                  let thin rods hang on revolute joints where all moves in a plane, on universal joints where it does not. Or \

@@ -68,6 +68,11 @@ impl Fields {
         6 + self.axes.len()
     }
 
+    /// How many bodies may spin about themselves.
+    pub fn spins(&self) -> usize {
+        self.axes.len()
+    }
+
     /// Columns of (v, ω) body by body.
     pub fn twists(&self, at: &[NaturalCoordinates]) -> DMatrix<f64> {
         let mut out = DMatrix::zeros(6 * at.len(), self.count());

@@ -132,6 +132,8 @@ export const toldOfRuns: Record<string, string> = {
     "diese Analyse nimmt höchstens {most} Freiheitsgrade, denn ihre Arbeit wächst mit deren dritter Potenz; die Szene hat {freedoms}",
   'this analysis takes at most {most} degrees of freedom, because its work grows with their cube; the scene has {freedoms}, {turns} of which are turns of bodies about axes about which they have no inertia, "{body}" first':
     "diese Analyse nimmt höchstens {most} Freiheitsgrade, denn ihre Arbeit wächst mit deren dritter Potenz; die Szene hat {freedoms}, von denen {turns} Drehungen von Körpern um Achsen sind, um die sie keine Trägheit haben, zuerst „{body}“",
+  "a steady motion keeps the momentum of each spin, and its search takes work that grows with the fourth power of the size: {spins} bodies that are alike around an axis, with {freedoms} degrees of freedom, are too many":
+    "eine stationäre Bewegung erhält den Drehimpuls jeder Eigendrehung, und der Aufwand ihrer Suche wächst mit der vierten Potenz der Größe: {spins} um eine Achse gleiche Körper mit {freedoms} Freiheitsgraden sind zu viele",
   'no equilibrium was found: after {steps} steps a generalized force of {force} N is left, most of it on body "{body}"':
     "es wurde kein Gleichgewicht gefunden: Nach {steps} Schritten bleibt eine verallgemeinerte Kraft von {force} N, das meiste davon an Körper „{body}“",
   'there is no steady motion near the start: "{name}" does not let the bodies keep their places in one frame that turns and slides uniformly (a body may spin only about an axis around which its moments of inertia are alike)':

@@ -21,6 +21,9 @@ const BESIDE: f64 = 0.05;
 /// Angle or, in lengths of the mechanism, way after which it is seen whether the motion is steady.
 const LATER: f64 = 0.7;
 
+/// Freedoms times bodies times squared fields that are not too many: some seconds.
+const MOST_WORK: usize = 60_000_000;
+
 /// A motion in which all bodies keep their places in a frame that turns and slides uniformly.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct SteadyMotion {
@@ -65,6 +68,7 @@ pub fn find(stage: &mut Stage) -> Result<(SteadyMotion, Unfelt), AnalysisError> 
     stage.momenta = Some(symmetries.momenta.clone());
     fits(stage)?;
     symmetries.keep_momenta(stage)?;
+    within_reach(stage, &symmetries.momenta)?;
     settle(stage)?;
     equilibrium::find(stage).map_err(|error| match error {
         AnalysisError::NoEquilibrium { residual, body, .. } => none(format!(
@@ -89,6 +93,17 @@ pub fn find(stage: &mut Stage) -> Result<(SteadyMotion, Unfelt), AnalysisError> 
     lasts(stage)?;
     stage.rest();
     Ok((told, unfelt))
+}
+
+/// Refuses what would take long: the momenta of all fields are kept at each position at which forces are looked at, four for each
+/// freedom and step.
+fn within_reach(stage: &mut Stage, momenta: &Momenta) -> Result<(), AnalysisError> {
+    let (freedoms, fields) = (stage.freedoms(), momenta.fields.count());
+    let work = [freedoms, stage.mechanism.system.bodies.len(), fields, fields].iter().product::<usize>();
+    if work > MOST_WORK {
+        return Err(AnalysisError::TooManySpins { spins: momenta.fields.spins(), freedoms });
+    }
+    Ok(())
 }
 
 fn none(reason: String) -> AnalysisError {
