@@ -67,8 +67,10 @@ fn tell(what: &str, mut judged: Vec<&Judged>) {
     println!("{what}: {share:.1} of 100 within three, {bad} of {} below a tenth", judged.len());
     judged.sort_by(|a, b| (a.estimate / a.error).total_cmp(&(b.estimate / b.error)));
     let worst = judged.iter().take(bad.max(4)).chain(judged.iter().rev().take(2));
-    for Judged { scene, time, estimate, error, .. } in worst {
-        println!("    {scene} at {time:.3} s: {estimate:.1e} for {error:.1e}");
+    for Judged { scene, time, estimate, error, size, unsure, .. } in worst {
+        println!(
+            "    {scene} at {time:.3} s: {estimate:.1e} for {error:.1e}, known to {unsure:.0e}, of {size:.1e}"
+        );
     }
 }
 

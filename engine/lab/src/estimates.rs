@@ -13,8 +13,8 @@ const TIGHTEST: f64 = 1e-13;
 const NEXT_TIGHTEST: f64 = 1e-12;
 /// Part of the size of a quantity below which an error cannot be measured that way: both runs round.
 const MEASURABLE: f64 = 3e-12;
-/// How many times as far as two tight runs by different methods are apart an error must be to be measured by one of them, and the
-/// tolerance below which that is looked at: looser runs are much farther off.
+/// How many times as far as two tight runs are apart an error must be to be measured by one of them, and the tolerance below which they
+/// are by different methods: looser runs are much farther off.
 const KNOWN: f64 = 3.0;
 const NEAR_TIGHTEST: f64 = 3e-8;
 /// Part of that size above which a run promises nothing: of the length of a mechanism, it says that it doubts the result.
@@ -79,6 +79,8 @@ pub struct Judged {
     pub estimate: f64,
     /// That error.
     pub error: f64,
+    /// How well that is known: how far two tight runs are apart, and of forces and moments also what rounding makes of them.
+    pub unsure: f64,
 }
 
 impl Judged {
@@ -154,8 +156,9 @@ pub fn judge(scene: &Scene) -> Result<Vec<Judged>, EngineError> {
 pub fn judge_all(scene: &Scene) -> Result<Vec<Judged>, EngineError> {
     let by = |integrator| Simulation::new(&truth(scene, integrator));
     let (mut run, mut right) = (Simulation::new(scene)?, by(IntegratorKind::Auto)?);
-    // Near it another method, so that the two do not err alike.
-    let near = scene.simulation.tolerance < NEAR_TIGHTEST;
+    // Near it another method, so that the two do not err alike; where rows are redundant, series know no tolerance that tight, and two of
+    // them would be the same run.
+    let near = scene.simulation.tolerance < NEAR_TIGHTEST || !right.rank().dependent.is_empty();
     let mut other = if near {
         by(IntegratorKind::Dop853)?
     } else {
@@ -173,21 +176,43 @@ pub fn judge_all(scene: &Scene) -> Result<Vec<Judged>, EngineError> {
         }
         let Some(estimates) = estimates(&run) else { break };
         let true_numbers = Numbers::of(&right);
-        let unsure = true_numbers.apart(&Numbers::of(&other));
+        let mut unsure = true_numbers.apart(&Numbers::of(&other));
+        for (unsure, rounding) in unsure[5..].iter_mut().zip(rounded_reactions(&right, &true_numbers)) {
+            *unsure = f64::max(*unsure, rounding);
+        }
         let errors = true_numbers.apart(&Numbers::of(&run));
         true_numbers.raise(&mut sizes);
         if estimates[0] >= PROMISED * sizes[0] {
             continue;
         }
         for (k, quantity) in QUANTITIES.into_iter().enumerate() {
-            let (size, estimate, error) = (sizes[k], estimates[k], errors[k]);
-            if error > (MEASURABLE * size).max(KNOWN * unsure[k]) && estimate < PROMISED * size {
+            let (size, estimate, error, unsure) = (sizes[k], estimates[k], errors[k], unsure[k]);
+            if error > (MEASURABLE * size).max(KNOWN * unsure) && estimate < PROMISED * size {
                 let (scene, tolerance) = (scene.name.clone(), scene.simulation.tolerance);
-                judged.push(Judged { scene, tolerance, time, quantity, size, estimate, error });
+                judged.push(Judged { scene, tolerance, time, quantity, size, estimate, error, unsure });
             }
         }
     }
     Ok(judged)
+}
+
+/// What a rounding of each number of a run's state makes of its forces and moments: near singular positions, and where rows depend on
+/// others, no run knows them better, and those that agree in all bits of their states only seem to.
+fn rounded_reactions(run: &Simulation, numbers: &Numbers) -> [f64; 2] {
+    let mut rounded = serde_json::to_value(run.snapshot()).unwrap_or_default();
+    for (k, x) in rounded["state"].as_array_mut().into_iter().flatten().enumerate() {
+        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+        *x = (x.as_f64().unwrap_or_default() * (1.0 + sign * f64::EPSILON)).into();
+    }
+    let view = serde_json::from_value(rounded).ok().and_then(|snapshot| run.at_snapshot(&snapshot));
+    let reactions = view.map_or_else(Vec::new, |view| view.multipliers());
+    let mut all = [0.0; 2];
+    for (a, b) in numbers.reactions.iter().zip(&reactions) {
+        for (all, apart) in all.iter_mut().zip([distance(a[0], b.force), distance(a[1], b.moment)]) {
+            *all = f64::max(*all, apart);
+        }
+    }
+    all
 }
 
 /// What a run estimates, by quantity.

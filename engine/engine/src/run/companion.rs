@@ -175,7 +175,7 @@ impl Companion {
 }
 
 /// Tolerance of a second solution beside a first one at this tolerance.
-fn tolerance_beside(first: f64) -> f64 {
+pub(super) fn tolerance_beside(first: f64) -> f64 {
     if first < NO_TIGHTER { TIGHTEST } else { (TIGHTER * first).max(TIGHTEST.min(NEAREST * first)) }
 }
 

@@ -1,14 +1,24 @@
 //! What the numbers of a run are worth: estimates of their errors — THEORY section 11.
 
 use super::Simulation;
-use super::companion::Lost;
+use super::companion::{self, Lost};
 use super::state_view::CachedState;
 use crate::scene::IntegratorKind;
+use nalgebra::Vector3;
 use serde::Serialize;
 use triad_dynamics::state::{BodyFrame, State};
 
-/// Part of the errors of all kinetic and potential energies below which they are not taken to cancel.
+/// Part of what the errors of all bodies would make of the energy, did each change it the same way, below which they are not taken to cancel.
 const CANCELLED: f64 = 0.05;
+/// Part of the error of all positions, over the length of the mechanism, below which that of directors is not told, since what moves one
+/// body turns another; likewise of velocities.
+const TURNED: f64 = 0.1;
+/// Part of the relative error of the state below which that of forces or moments is looked at more closely: contributions may cancel.
+const SUSPICIOUS: f64 = 0.05;
+/// Part of itself by which the error of each number is then changed.
+const CHANGED: f64 = 0.2;
+/// All these parts are smaller where a tighter solution tells the error: so many times its tolerance over that of the run.
+const UNKNOWN: f64 = 100.0;
 
 /// Roundings of what forces do over the length of the mechanism below which moments are nothing but that, and forces likewise.
 const NOTHING: f64 = 100.0 * f64::EPSILON;
@@ -72,20 +82,23 @@ impl Simulation {
     }
 
     /// Estimated errors of the reactions at the current state; `None` as for [`Simulation::error_estimate`]. They are computed
-    /// a second time, without the error of the state: with what was found for the state, if that is near enough.
+    /// a second time, without the error of the state: with what was found for the state, if that is near enough. Where the two
+    /// agree much better than the states do, twice more, without errors that are a little different: parts of it may cancel.
     pub fn reaction_errors(&self) -> Option<ReactionErrors> {
-        let there = self.current.multipliers_of(self.better()?, self);
-        // The largest squares of their lengths, and one root of each in the end.
-        let mut squares = [0.0f64; 4];
-        for (constraint, [force, moment]) in self.system().constraints.iter().zip(self.current.wrenches(self))
-        {
-            let Some(other) = there.joint_wrench(constraint) else { continue };
-            let vectors = [force - other.force, *force, moment - other.moment, *moment];
-            for (square, vector) in squares.iter_mut().zip(vectors) {
-                *square = square.max(vector.norm_squared());
+        let better = self.better()?;
+        let [mut force, largest_force, mut moment, largest_moment] = self.compare_reactions(better);
+        let part = self.unknown(SUSPICIOUS) * self.relative_error(better);
+        if force < part * largest_force || moment < part * largest_moment {
+            let mut at = better;
+            for first in [true, false] {
+                let Some(changed) = at.better(self.system(), |out| self.change(better, first, out)) else {
+                    break;
+                };
+                let [other_force, _, other_moment, _] = self.compare_reactions(changed);
+                (force, moment) = (force.max(other_force), moment.max(other_moment));
+                at = changed;
             }
         }
-        let [force, largest_force, moment, largest_moment] = squares.map(f64::sqrt);
         // Nor is a reaction better than its rounding.
         let length = self.system().length;
         let of_moments = largest_moment.max(length * largest_force);
@@ -98,6 +111,50 @@ impl Simulation {
             moment,
             largest_moment: unless_rounding(largest_moment, length * largest_force),
         })
+    }
+
+    /// Writes what the error of the current state is changed by, first, and from there to another change of it.
+    fn change(&self, better: &CachedState, first: bool, out: &mut [f64]) -> bool {
+        let errors = self.current.y().iter().zip(better.y()).map(|(here, there)| here - there);
+        let part = self.unknown(CHANGED);
+        for (k, (out, error)) in out.iter_mut().zip(errors).enumerate() {
+            let by = if first { sign(k) } else { -sign(k) - sign(k + 1) };
+            *out = part * by * error;
+        }
+        true
+    }
+
+    /// Largest differences of forces and of moments between the current state and one nearby, each with the largest of them.
+    fn compare_reactions(&self, other: &CachedState) -> [f64; 4] {
+        let there = self.current.multipliers_of(other, self);
+        // The largest squares of their lengths, and one root of each in the end.
+        let mut squares = [0.0f64; 4];
+        for (constraint, [force, moment]) in self.system().constraints.iter().zip(self.current.wrenches(self))
+        {
+            let Some(other) = there.joint_wrench(constraint) else { continue };
+            let vectors = [force - other.force, *force, moment - other.moment, *moment];
+            for (square, vector) in squares.iter_mut().zip(vectors) {
+                *square = square.max(vector.norm_squared());
+            }
+        }
+        squares.map(f64::sqrt)
+    }
+
+    /// The error of positions as a part of the mechanism, and of velocities as a part of the largest, at most one.
+    fn relative_error(&self, better: &CachedState) -> f64 {
+        let length = self.system().length;
+        let error = self.compare(better);
+        let bodies = self.current.state(self.system()).bodies().iter().map(BodyFrame::from);
+        let fastest = bodies.fold(0.0f64, |fastest, body| {
+            let [speed, spin] =
+                [body.velocity, body.angular_velocity].map(|rate| apart(rate, [0.0; 3]).sqrt());
+            fastest.max(speed).max(length * spin)
+        });
+        let moved = error.position.max(length * error.turn) / length;
+        let faster = error.velocity.max(length * error.angular_velocity);
+        // At rest nothing is faster.
+        let part = if faster > 0.0 { faster / fastest } else { 0.0 };
+        (moved + part).min(1.0)
     }
 
     /// From when on the error is not known, s: it has grown so far that it is no longer small against the mechanism, or the second
@@ -142,7 +199,16 @@ impl Simulation {
         }
     }
 
-    /// Error of the energy: exactly, where it stays that of the start. Elsewhere errors of its parts cancel for moments, and it is never taken
+    /// A part of an error that may be unknown: all of it of what a series carries along, and where radau goes beside radau.
+    fn unknown(&self, part: f64) -> f64 {
+        let tolerance = self.model().settings.tolerance;
+        match self.kind {
+            IntegratorKind::Taylor | IntegratorKind::Radau => part,
+            _ => part * (UNKNOWN * companion::tolerance_beside(tolerance) / tolerance).min(1.0),
+        }
+    }
+
+    /// Error of the energy: exactly, where it stays that of the start. Elsewhere errors of bodies cancel for moments, and it is never taken
     /// to be much below them.
     fn energy_error(&self, here: &State, there: &State) -> f64 {
         let system = self.system();
@@ -150,12 +216,27 @@ impl Simulation {
         let error = if system.is_conservative() {
             (energy - self.start_energy).abs()
         } else {
-            let parts = here.energies(system).zip(there.energies(system));
-            let apart: f64 = parts.map(|(a, b)| (a - b).abs()).sum();
-            (energy - there.energy(system)).abs().max(CANCELLED * apart)
+            (energy - there.energy(system))
+                .abs()
+                .max(self.unknown(CANCELLED) * self.changed_energy(here, there))
         };
         let size: f64 = here.energies(system).map(f64::abs).sum();
         error.max(f64::EPSILON * size)
+    }
+
+    /// The most that lies between the energies of two states, by the lengths of what lies between their velocities and positions.
+    fn changed_energy(&self, here: &State, there: &State) -> f64 {
+        let system = self.system();
+        let gravity = system.model.gravity.norm();
+        let bodies = here.bodies().iter().zip(there.bodies()).zip(&system.bodies);
+        let of_bodies = bodies.map(|((a, b), body)| {
+            let rate = |a: &Vector3<f64>, b: &Vector3<f64>| a.norm() * (a - b).norm();
+            let turning: f64 = (0..3).map(|k| body.ibar[k] * rate(&a.q_dot.e[k], &b.q_dot.e[k])).sum();
+            let falling = gravity * (a.q.r - b.q.r).norm();
+            body.mass * (rate(&a.q_dot.r, &b.q_dot.r) + falling) + turning
+        });
+        let loads = system.loads.iter().map(|load| (load.potential(here) - load.potential(there)).abs());
+        of_bodies.chain(loads).sum()
     }
 
     /// The current state compared with that without an error.
@@ -176,8 +257,17 @@ impl Simulation {
         let worth = |k: usize| errors[k].sqrt().max(f64::EPSILON * numbers[k].sqrt());
         let rounding = if here.bodies().is_empty() { 0.0 } else { f64::EPSILON };
         let [position, velocity, angular_velocity] = [0, 1, 2].map(worth);
-        ErrorEstimate { position, turn: turn.sqrt().max(rounding), velocity, angular_velocity, energy }
+        // What a director or a rate of turning is off may pass through zero: it is told to be a part of what is known beside it.
+        let part = self.unknown(TURNED) / self.system().length;
+        let turn = turn.sqrt().max(part * position);
+        let angular_velocity = angular_velocity.max(part * velocity);
+        ErrorEstimate { position, turn: turn.max(rounding), velocity, angular_velocity, energy }
     }
+}
+
+/// A sign of each number, in an order that repeats itself nowhere.
+pub(super) fn sign(k: usize) -> f64 {
+    if k.count_ones().is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
 /// Square of the distance of two points.

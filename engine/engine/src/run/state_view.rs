@@ -1,5 +1,6 @@
 //! A state of a run, and what is computed from it.
 
+use super::errors::sign;
 use super::{Frame, MarkerFrame, Simulation, Snapshot};
 use crate::error::EngineError;
 use crate::reactions::matrices::{self, Symmetric};
@@ -141,7 +142,8 @@ impl CachedState {
         Self { time, y: y.to_vec(), state: LateState::known(state), results: Results::default() }
     }
 
-    /// This state less its error, which `error` writes on the first request; `None` if it does not know it.
+    /// This state less its error, which `error` writes on the first request; `None` if it does not know it. A rounding of each number
+    /// is taken for a part of that, so that what is computed of both differs by what rounding makes of it.
     pub fn better(&self, system: &System, error: impl FnOnce(&mut [f64]) -> bool) -> Option<&Self> {
         let find = || {
             let spare = self.results.spare_better.lock().unwrap_or_else(PoisonError::into_inner).take();
@@ -151,8 +153,8 @@ impl CachedState {
             if !error(&mut better.y) {
                 return None;
             }
-            for (x, y) in better.y.iter_mut().zip(&self.y) {
-                *x = y - *x;
+            for ((k, x), y) in better.y.iter_mut().enumerate().zip(&self.y) {
+                *x = y - *x + sign(k) * f64::EPSILON * y;
             }
             better.state.go_on(self.angles(system).iter().map(|angle| angle.value));
             Some(better)
