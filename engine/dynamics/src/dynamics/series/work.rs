@@ -18,8 +18,8 @@ const ACCELERATIONS: usize = 2;
 /// Part of the tolerance below which the last terms of the power, beside all of them, show that there is nothing more to find.
 const COMPLETE: f64 = 0.1;
 /// Part of all terms above which the last ones show that the series of the power hardly converge, as about a state beside a singular
-/// position: it is then a polynomial through powers within the step.
-const ROUGH: f64 = 1e-4;
+/// position: it is then a polynomial through powers within the step. And the same in tolerances: loose ones leave terms that are as large.
+const ROUGH: (f64, f64) = (1e-4, 100.0);
 /// The powers that this goes through.
 const NODES: usize = 12;
 /// Greatest size of the term that is found, in the last ones known: near a singular position the power of a single state is noise.
@@ -69,7 +69,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         if last <= COMPLETE * tolerance * all {
             return;
         }
-        if last > ROUGH * all {
+        if last > ROUGH.0.max(ROUGH.1 * tolerance) * all {
             self.interpolate_power(taken);
             return;
         }

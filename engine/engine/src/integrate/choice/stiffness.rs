@@ -12,13 +12,13 @@ use triad_dynamics::state;
 const MANY_DECAYS: f64 = 1.5e3;
 const DECAYS_A_RADIAN: f64 = 200.0;
 /// The same on open trees, for each freedom to the power `FREEDOMS_OPEN`, at the tolerance `MIDDLE_TOLERANCE`; at others times the ratio of
-/// the two to the power `LOOSER_OPEN`. Counted in instructions with the estimate of errors, both cost the same at 5e2, 8e2 and 1.1e3 decays on
-/// three rods in 4 s at 1e-3, 1e-6 and 1e-9, at 2.1e3, 2.5e3 and 4.4e3 on eight, and at 1.3e3, 1.2e3 and 2.1e3 on the flyball governor in 10 s.
-const MANY_DECAYS_OPEN: f64 = 185.0;
-const DECAYS_A_RADIAN_OPEN: f64 = 1.5;
-const FREEDOMS_OPEN: f64 = 1.2;
+/// the two to the power `LOOSER_OPEN`. With the estimate of errors both take the same time at about 100 and 180 decays on three rods in 4 s at
+/// 1e-6 and 1e-9, at 130, 400 and 1.5e3 on eight at 1e-3, 1e-6 and 1e-9, and at 180, 600 and 1.9e3 on twelve.
+const MANY_DECAYS_OPEN: f64 = 10.0;
+const DECAYS_A_RADIAN_OPEN: f64 = 0.7;
+const FREEDOMS_OPEN: f64 = 1.35;
 const MIDDLE_TOLERANCE: f64 = 1e-6;
-const LOOSER_OPEN: f64 = -0.055;
+const LOOSER_OPEN: f64 = -0.16;
 /// Radians of an oscillation that may be left out that are as costly for the series as a decay, and the same on open trees.
 const RADIANS_A_DECAY: f64 = 0.4;
 const RADIANS_A_DECAY_OPEN: f64 = 1.0;
