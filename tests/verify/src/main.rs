@@ -43,7 +43,7 @@ const STEPS: [Step; 14] = [
         cargo(root, "test --release --workspace --no-fail-fast")
     }),
     Step::new("bits", "the same results from builds for old and for new processors", bits::run),
-    Step::new("size", "the program is at most 55 MB", size),
+    Step::new("size", "the program is at most 56 MB", size),
     Step::new("python", "the Python module: its wheel, its types, its tests and its notebooks", python::run),
     Step::new("lint", "clippy on all targets, the fuzz targets included, without warnings", |root| {
         let targets = "--workspace --all-targets --features triad-fuzz/fuzzing";
@@ -76,7 +76,7 @@ const STEPS: [Step; 14] = [
 /// encrypted connections to learning platforms, the documentation and the engine for the page brought it from 42 to 50, sign-in by
 /// institutions, lectures and an allocator that gives memory back to 52.6, joints in vectors and the German of notes to 53.7, hinges in space and
 /// single bodies in vectors and searches of four times at once to 54.8.
-const LARGEST: f64 = 55.0;
+const LARGEST: f64 = 56.0;
 
 fn size(root: &Path) -> Result<(), String> {
     cargo(root, "build --release --quiet --workspace")?;
