@@ -160,7 +160,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let end = plan.end.min(self.next_break);
         let (start, left) = (self.time, end - self.time);
         let allowance = self.allowance(plan.tolerance);
-        let again = self.expand_unless_known(simd, plan, left, end < plan.end);
+        let again = self.expand_unless_known(simd, plan, allowance, left, end < plan.end);
         let expanded = self.expansion.order;
         self.find_power(expanded);
         let (natural, order) = self.reach(expanded, allowance);
@@ -221,7 +221,14 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Finds the series of a step, as far as what is left up to a breakpoint asks for, unless those of the step that was taken back still
     /// hold. Returns whether they do.
     #[inline(always)]
-    fn expand_unless_known<S: Simd>(&mut self, simd: S, plan: StepPlan, left: f64, breaks: bool) -> bool {
+    fn expand_unless_known<S: Simd>(
+        &mut self,
+        simd: S,
+        plan: StepPlan,
+        allowance: [f64; 2],
+        left: f64,
+        breaks: bool,
+    ) -> bool {
         match self.expansion.back.take() {
             Some(true) => return true,
             Some(false) => {
@@ -230,7 +237,6 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             }
             None => {}
         }
-        let allowance = self.allowance(plan.tolerance);
         // Between breakpoints, prescribed functions are polynomials of degree five: only terms of higher order than those of
         // their accelerations show how well the series converge.
         self.expansion.order = self.expand(simd, plan.order, |s, k| {

@@ -7,16 +7,23 @@ use crate::model::Model;
 use crate::scene::catalogue;
 use crate::system::{System, planar};
 
+/// A built-in scene's system and its start.
+fn started(name: &str) -> (System, Vec<f64>) {
+    let scene = catalogue::scene(name).unwrap();
+    let system = Mechanism::new(System::new(Model::new(&scene).unwrap())).system;
+    let mut y = vec![0.0; 2 * system.coordinates];
+    let (q, q_dot) = y.split_at_mut(system.coordinates);
+    system.start(q, q_dot);
+    (system, y)
+}
+
 /// Products and sums are fused whether the processor does it or not.
 #[test]
 fn every_set_of_instructions_gives_the_same_bits() {
     for name in ["spatial-chain:5", "spatial-slider-crank", "bricard", "heavy-top", "n-four-bar:2"] {
-        let scene = catalogue::scene(name).unwrap();
-        let mechanism = Mechanism::new(System::new(Model::new(&scene).unwrap()));
-        let system = &mechanism.system;
-        let mut y = vec![0.0; 2 * system.coordinates];
-        let (q, q_dot) = y.split_at_mut(system.coordinates);
-        system.start(q, q_dot);
+        let (system, y) = started(name);
+        let system = &system;
+        let q = &y[..system.coordinates];
         let flat = planar::recognize(system, q).ok().map(|plane| plane.reduce(system.clone(), q).unwrap());
         assert_eq!(flat.is_some(), name == "n-four-bar:2");
         match flat {
@@ -31,12 +38,8 @@ fn every_set_of_instructions_gives_the_same_bits() {
 #[test]
 fn a_step_taken_back_serves_for_a_part_of_it() {
     for name in ["spatial-chain:5", "spatial-slider-crank", "bricard", "rssr", "crank-rocker"] {
-        let scene = catalogue::scene(name).unwrap();
-        let mechanism = Mechanism::new(System::new(Model::new(&scene).unwrap()));
-        let system = &mechanism.system;
-        let mut y = vec![0.0; 2 * system.coordinates];
-        let (q, q_dot) = y.split_at_mut(system.coordinates);
-        system.start(q, q_dot);
+        let (system, y) = started(name);
+        let system = &system;
         let mut own = Series::<4>::new(system, 12, &[0.0; 8][..system.angle_joints.len()]);
         own.place(system, 0.0, &y);
         own.carry_errors(system);
