@@ -28,6 +28,8 @@ pub mod event;
 
 pub mod body;
 
+pub mod common_axes;
+
 pub mod islands;
 
 pub mod pivots;

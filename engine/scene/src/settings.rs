@@ -203,6 +203,8 @@ pub struct Skip {
     pub fixed: bool,
     /// Entries of the matrix that never change: they are written once (integrator `taylor`).
     pub constants: bool,
+    /// Products of series in rows that keep a vector along an axis, which are solved as those of a common vector (integrator `taylor`).
+    pub axes: bool,
     /// Measuring the constraints after a step whose projection has just shown that they hold (integrator `taylor`).
     pub checks: bool,
     /// Energy, reactions and the Jacobian of every step: they are found when somebody asks.
@@ -213,8 +215,8 @@ pub struct Skip {
 
 impl Skip {
     /// The words.
-    pub const WORDS: [&'static str; 7] =
-        ["planar", "islands", "fixed", "constants", "checks", "reports", "outputs"];
+    pub const WORDS: [&'static str; 8] =
+        ["planar", "islands", "fixed", "constants", "axes", "checks", "reports", "outputs"];
 
     /// Whether everything is left out that can be.
     #[allow(clippy::trivially_copy_pass_by_ref)]
@@ -240,6 +242,7 @@ impl Skip {
             "islands" => Some(&mut self.islands),
             "fixed" => Some(&mut self.fixed),
             "constants" => Some(&mut self.constants),
+            "axes" => Some(&mut self.axes),
             "checks" => Some(&mut self.checks),
             "reports" => Some(&mut self.reports),
             "outputs" => Some(&mut self.outputs),
@@ -255,6 +258,7 @@ impl Default for Skip {
             islands: true,
             fixed: true,
             constants: true,
+            axes: true,
             checks: true,
             reports: true,
             outputs: true,

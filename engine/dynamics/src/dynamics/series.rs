@@ -264,7 +264,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             return;
         }
         // Common points make the same of S whatever their values are.
-        if self.needs_values || self.points.has_others() {
+        if self.needs_values || self.points.has_others() || self.points.has_vectors() {
             self.place_values();
             self.rows.turn_common_vectors(&self.values);
             self.rows.store_factors(0, &self.values);
@@ -292,7 +292,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     #[inline(always)]
     fn take_factors(&mut self) {
         self.rows.store_factors(0, &self.values);
-        self.points.take_factors(self.rows.numbers());
+        self.points.take_factors(self.rows.numbers(), &self.rows.commons);
     }
 
     /// Values of all features at the state.

@@ -110,7 +110,7 @@ impl System {
     /// What the choice says.
     pub(super) fn keep_rows<E>(
         &mut self,
-        choose: impl Fn(&Self, &[Row], &str) -> Result<Vec<Row>, E>,
+        mut choose: impl FnMut(&Self, &[Row], &str) -> Result<Vec<Row>, E>,
         independent: impl Fn(&Form) -> usize,
     ) -> Result<(), E> {
         let (rows, mut constraints) = (take(&mut self.rows), take(&mut self.constraints));

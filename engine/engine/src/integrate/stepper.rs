@@ -89,6 +89,8 @@ pub struct SkippedWork {
     pub pivoted_bodies: usize,
     /// Entries of the matrix that were not written again.
     pub constants: u64,
+    /// Axes of joints that are kept by rows of common vectors.
+    pub axes: usize,
     /// Steps after which the constraints needed no measuring.
     pub checks: u64,
 }
@@ -172,7 +174,7 @@ pub trait Stepper: Debug + Send + Sync {
     }
 
     /// Multipliers of the solver rows at a state within the last step, with A there, where the method has them.
-    fn multipliers(&self, _: &System, _: &State, _: &TwistJacobian) -> Option<Vec<f64>> {
+    fn multipliers(&self, _: &State, _: &TwistJacobian) -> Option<Vec<f64>> {
         None
     }
 

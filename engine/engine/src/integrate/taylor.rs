@@ -164,9 +164,9 @@ impl Stepper for Taylor {
     }
 
     /// Only the series of the whole in space have them.
-    fn multipliers(&self, system: &System, state: &State, jacobian: &TwistJacobian) -> Option<Vec<f64>> {
+    fn multipliers(&self, state: &State, jacobian: &TwistJacobian) -> Option<Vec<f64>> {
         let [island] = self.islands.as_slice() else { return None };
-        island.multipliers(system, state, jacobian)
+        island.multipliers(state, jacobian)
     }
 
     fn proves_constraints(&mut self) -> bool {
@@ -183,6 +183,7 @@ impl Stepper for Taylor {
             skipped.body_steps += island.steps() * island.bodies() as u64;
             skipped.body_steps_together += most * island.bodies() as u64;
             skipped.constants += island.constants_kept();
+            skipped.axes += island.axes();
         }
         Some(skipped)
     }

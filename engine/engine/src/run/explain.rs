@@ -93,6 +93,9 @@ impl Simulation {
             );
         }
         let unchanged = format!("{constants} entries of the matrix that never change not written again");
+        let axes = s.axes as u64;
+        let axis = if axes == 1 { "axis" } else { "axes" };
+        let straight = format!("{axes} {axis} of joints kept without products of series");
         let proven = format!(
             "{} of {steps} steps shown consistent by their own projection, {} measured",
             s.checks, self.counters.checks
@@ -102,6 +105,7 @@ impl Simulation {
             SkippedItem::new("islands", skip.islands, together.saturating_sub(taken), of(together), apart),
             SkippedItem::new("fixed", skip.fixed, fixed + merged, of(bodies), tied),
             SkippedItem::new("constants", skip.constants, constants, of(constants.max(1)), unchanged),
+            SkippedItem::new("axes", skip.axes, axes, of(axes.max(1)), straight),
             SkippedItem::new("checks", skip.checks, s.checks, of(steps), proven),
         ]
     }

@@ -57,7 +57,7 @@ impl Simulation {
         let state = self.current.state(system);
         let mut jacobian = TwistJacobian::new(system);
         jacobian.fill(system, state);
-        match self.integrator.multipliers(system, state, &jacobian) {
+        match self.integrator.multipliers(state, &jacobian) {
             Some(lambda) => reactions::multipliers(&Multipliers::new(system, state, &jacobian, &lambda)),
             None => self.multipliers(),
         }

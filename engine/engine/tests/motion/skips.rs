@@ -383,3 +383,44 @@ fn a_door_on_two_hinges_keeps_its_rows() {
         assert!(left.iter().all(|item| !item.what.contains("points of the ground")), "{kinds:?}: {left:?}");
     }
 }
+
+/// Mechanisms of hinges and slides in space, with what is attached to them.
+#[test]
+fn axes_ask_for_no_products_of_series() {
+    let mut chain = scene("spatial-chain:4");
+    for (k, joint) in chain.joints.iter_mut().enumerate().skip(1) {
+        *joint = Joint::revolute(&joint.name, &joint.body_i, &joint.body_j).at(joint.point.unwrap()).about([
+            0.3,
+            1.0 - 0.4 * k as f64,
+            0.7,
+        ]);
+    }
+    for (scene, axes) in [(scene("bricard"), 6), (scene("spatial-slider-crank"), 2), (chain, 3)] {
+        assert_eq!(compare(&scene, "axes", 1e-8), (axes, 0), "{}", scene.name);
+    }
+    for name in ["n-four-bar:2", "spatial-double-pendulum", "free-body"] {
+        assert_eq!(saved(&run(&scene(name)).1, "axes"), 0, "{name}");
+    }
+}
+
+/// Multipliers between steps are those of the rows as they are written.
+#[test]
+fn multipliers_of_axes_are_those_of_their_rows() {
+    let lambda = |scene: &Scene| {
+        let mut run = Simulation::new(scene).unwrap();
+        run.advance_to(0.35).unwrap();
+        let found = run.multipliers_between_steps();
+        let numbers: Vec<f64> = found.iter().flat_map(|joint| &joint.rows).map(|row| row.value).collect();
+        numbers
+    };
+    let mut scene = scene("spatial-slider-crank");
+    scene.simulation.tolerance = 1e-12;
+    let with = lambda(&scene);
+    scene.simulation.skip.axes = false;
+    let without = lambda(&scene);
+    let largest = without.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+    assert!(largest > 1.0, "{largest}");
+    for (a, b) in with.iter().zip(&without) {
+        assert!((a - b).abs() < 1e-8 * largest, "{a} {b}");
+    }
+}

@@ -1,31 +1,29 @@
 //! What acts on the bodies besides the joints' multipliers of the current order: loads, drivers, earlier multipliers.
 
 use super::{Bodies, Series};
-use crate::dynamics::elimination::TwistJacobian;
-use crate::system::System;
-use crate::system::index::RowId;
 use nalgebra::Vector3;
+use pulp::Simd;
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// What rows demand of κ Q_(n+2) beyond its own part.
     #[inline(always)]
-    pub(super) fn demand(&mut self, n: usize, kappa: f64) {
+    pub(super) fn demand<S: Simd>(&mut self, simd: S, n: usize, kappa: f64) {
         if self.rows.curved() {
             self.rows.set_convolutions(n, kappa);
         }
-        self.angles.demand(n + 2, kappa, &mut self.rows.extra);
+        self.angles.demand(simd, n + 2, kappa, &mut self.rows.extra);
         self.prescribed.demand(n + 2, kappa, &mut self.rows.extra);
     }
 
     /// Generalized forces of order n that loads and multipliers of lower order make.
     #[inline(always)]
-    pub(super) fn set_known_forces(&mut self, n: usize) {
+    pub(super) fn set_known_forces<S: Simd>(&mut self, simd: S, n: usize) {
         self.forces.fill([[0.0; L]; 3]);
         self.rows.add_known_forces(n, &mut self.forces);
-        self.angles.add_known_forces(n, &mut self.forces);
+        self.angles.add_known_forces(simd, n, &mut self.forces);
         let (q, stride) = (&self.q, self.stride);
         let coefficient = |b: usize, i: usize| &q[b * stride + i];
-        self.loads.apply::<L, B>(n, coefficient, &mut self.forces, &mut self.bundles);
+        self.loads.apply::<S, L, B>(simd, n, coefficient, &mut self.forces, &mut self.bundles);
         self.prescribed.pull_back(n, &self.forces, &mut self.bundles);
         for (b, bundle) in self.bundles.iter_mut().enumerate() {
             for &slot in self.points.convolved(b) {
@@ -42,14 +40,13 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     /// Multipliers of the solver rows a time τ after the point of the last expansion, from the series up to order `order` of
-    /// Q; A is that of the state there. Not where rows are redundant: which of all multipliers that fit are smallest
+    /// Q; `across` tells the directions there that those of each common vector are written in. Not where rows are redundant: which of all multipliers that fit are smallest
     /// changes within a step.
     pub fn multipliers(
         &self,
-        system: &System,
         tau: f64,
         order: usize,
-        jacobian: &TwistJacobian,
+        across: impl Fn(usize) -> [Vector3<f64>; 2],
     ) -> Option<Vec<f64>> {
         if self.rows_left_out || order < 2 {
             return None;
@@ -61,14 +58,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             coefficients.rev().fold(0.0, |sum, c| sum * tau + c)
         };
         let mut lambda: Vec<f64> = self.schur.factor.places().iter().map(multiplier).collect();
-        for common in &self.rows.commons {
+        for (common, directions) in self.rows.commons.iter().zip((0..).map(across)) {
             // From the directions across the vector at the point of expansion to those at the state.
             let [t1, t2] = common.expanded.map(Vector3::from);
-            let first = system.rows[common.index].solver;
-            let sum = t1 * lambda[first] + t2 * lambda[first + 1];
-            for (k, t) in jacobian.transverse(RowId(common.index)).iter().enumerate() {
-                lambda[first + k] = t.dot(&sum);
-            }
+            let [first, second] = [0, 1].map(|k| common.solver + k);
+            let sum = t1 * lambda[first] + t2 * lambda[second];
+            [lambda[first], lambda[second]] = directions.map(|t| t.dot(&sum));
         }
         Some(lambda)
     }

@@ -2,6 +2,8 @@
 
 mod vectors;
 
+mod commons;
+
 mod points;
 
 mod rows;

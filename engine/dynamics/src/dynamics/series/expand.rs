@@ -18,7 +18,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// first order that is `enough`. Returns the order.
     #[inline(always)]
     pub fn expand<S: Simd>(&mut self, simd: S, order: usize, enough: impl Fn(&Self, usize) -> bool) -> usize {
-        self.begin_expansion();
+        self.begin_expansion(simd);
         let order = order.min(self.stride - 1);
         let first = usize::from(self.recall_evaluation());
         for n in first..order.max(2) - 1 {
@@ -32,19 +32,22 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Takes over the state as the terms of orders 0 and 1.
     #[inline(always)]
-    pub fn begin_expansion(&mut self) {
+    pub fn begin_expansion<S: Simd>(&mut self, simd: S) {
         for (b, state) in self.state.iter().enumerate() {
             self.q[b * self.stride..b * self.stride + 2].copy_from_slice(state);
         }
         if self.needs_values {
             self.place_values();
-            self.store_values(0);
-            self.points.take_factors(self.rows.numbers());
+            self.store_values(simd, 0);
+            self.points.take_factors(self.rows.numbers(), &self.rows.commons);
             self.values_of(|state, _| state[1]);
             self.set_ground(false);
             self.prepare_prescribed(1, 1.0);
             self.prescribed.add_known(1.0, &mut self.values);
-            self.store_values(1);
+            self.store_values(simd, 1);
+        } else if self.points.has_vectors() {
+            // Products would ask for values.
+            self.points.take_factors(&[], &self.rows.commons);
         }
         self.rows.clear_extra();
         self.rows.keep_directions();
@@ -86,8 +89,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             }
         }
         if needs_values {
-            self.demand(n, kappa);
-            self.set_known_forces(n);
+            self.demand(simd, n, kappa);
+            self.set_known_forces(simd, n);
         }
         // No chunks: their number would be found by divisions.
         let (mut rest, mut rest_of_p) = (&self.q[..], &self.p[..]);
@@ -119,7 +122,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 }
             }
             self.prescribed.add_known(over_kappa, &mut self.values);
-            self.store_values(n + 2);
+            self.store_values(simd, n + 2);
         }
     }
 
@@ -131,9 +134,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Takes over coefficient m of all features.
     #[inline(always)]
-    fn store_values(&mut self, m: usize) {
+    fn store_values<S: Simd>(&mut self, simd: S, m: usize) {
         self.rows.store_factors(m, &self.values);
-        self.angles.store(m, &self.values);
+        self.angles.store(simd, m, &self.values);
         self.loads.store(m, &self.values, &self.angles.list);
     }
 

@@ -1,10 +1,11 @@
 //! The series of one island, bundled as suits its number of bodies: the one place where the kernels are compiled.
 
 use super::{Planar, Series, SeriesStep, Single, StepPlan};
-use crate::dynamics::elimination::{Counters, TwistJacobian};
+use crate::dynamics::elimination::Counters;
 use crate::newton::Projectable;
 use crate::system::System;
 use crate::system::index::SolverRow;
+use nalgebra::Vector3;
 
 /// The series, bundled as suits the number of bodies.
 #[derive(Clone, Debug)]
@@ -236,14 +237,14 @@ impl IslandSeries {
         with!(&self.0, s => s.breakpoints_before(end, most))
     }
 
-    /// Multipliers of the solver rows a time τ after the start of the last step; A is that of the state there.
+    /// Multipliers of the solver rows a time τ after the start of the last step; `across` tells the directions at the state there that
+    /// those of each common vector are written in.
     pub fn multipliers(
         &self,
-        system: &System,
         tau: f64,
         order: usize,
-        jacobian: &TwistJacobian,
+        across: impl Fn(usize) -> [Vector3<f64>; 2],
     ) -> Option<Vec<f64>> {
-        with!(&self.0, s => s.multipliers(system, tau, order, jacobian))
+        with!(&self.0, s => s.multipliers(tau, order, across))
     }
 }

@@ -5,6 +5,7 @@ use super::bodies::{Bodies, FeatureSlot, LanePlace};
 use super::expand::Value;
 use crate::model::BodyRef;
 use crate::system::System;
+use crate::system::load::SystemLoad;
 use pulp::Arch;
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
@@ -67,13 +68,26 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 }
 
-/// Bodies in bundles, their features in slots, and where each feature stands.
+/// The features that rows, angles and loads are made of, and those that move as prescribed.
+fn used(system: &System) -> Vec<bool> {
+    let mut used: Vec<bool> = system.features.iter().map(|feature| feature.curve.is_some()).collect();
+    let of_rows = system.rows.iter().flat_map(|row| row.form.features(&system.angles));
+    let of_angles = system.angles.iter().flat_map(|angle| angle.features().into_iter().chain([angle.axis]));
+    let of_loads = system.loads.iter().flat_map(SystemLoad::features);
+    for feature in of_rows.chain(of_angles).chain(of_loads) {
+        used[feature.index()] = true;
+    }
+    used
+}
+
+/// Bodies in bundles, their features in slots, and where each feature stands that is used.
 pub(super) fn bundles<const L: usize, B: Bodies<L>>(
     system: &System,
 ) -> (Vec<B>, Vec<FeatureSlot<L>>, Vec<LanePlace>) {
     let mut place = vec![LanePlace { slot: 0, lane: 0 }; system.features.len()];
     let mut of_body: Vec<Vec<usize>> = vec![Vec::new(); system.bodies.len()];
-    for (index, feature) in system.features.iter().enumerate() {
+    let used = used(system);
+    for (index, feature) in system.features.iter().enumerate().filter(|&(index, _)| used[index]) {
         if let BodyRef::Moving(body) = feature.body {
             of_body[body].push(index);
         }

@@ -6,7 +6,8 @@ use super::bodies::{Bodies, LanePlace};
 use super::constraints::AngleSeries;
 use super::lanes::LaneVector;
 use super::recurrence::{
-    Vectors, dot, product_with_rate, quotient, rate, root, scaled, square, value, vector_value,
+    Quads, Vectors, dot, product_with_rate, quad, quotient, rate, root, scaled, scaled_quads, square, value,
+    vector_value,
 };
 use crate::model::motion::VectorCurve;
 use crate::model::{BodyRef, ForceLaw};
@@ -15,6 +16,7 @@ use crate::system::System;
 use crate::system::index::FeatureId;
 use crate::system::load::SystemLoad;
 use nalgebra::Vector3;
+use pulp::Simd;
 
 /// Coulomb friction has its full value where the velocity is this many times its smoothing.
 const SATURATED: f64 = 20.0;
@@ -48,7 +50,7 @@ enum Load {
         law: LawSeries,
     },
     /// About the axis of a joint.
-    Torsion { angle: usize, axis: LanePlace, seats: [Option<Seat>; 2], direction: Vectors, law: LawSeries },
+    Torsion { angle: usize, axis: LanePlace, seats: [Option<Seat>; 2], direction: Quads, law: LawSeries },
     /// Along the axis of a joint.
     Slider {
         axis: LanePlace,
@@ -199,7 +201,7 @@ impl Loads {
                     BodyRef::Ground => None,
                     BodyRef::Moving(body) => Some(seat(body)),
                 }),
-                direction: vectors(),
+                direction: vec![[0.0; 4]; stride],
                 law: LawSeries::new(law, stride),
             },
             SystemLoad::Slider { axis, between, law } => Load::Slider {
@@ -270,7 +272,7 @@ impl Loads {
                     law.x[m] = root(square[m], &law.x, m);
                 }
                 Load::Torsion { angle, axis, direction, law, .. } => {
-                    direction[m] = axis.get(values).into();
+                    direction[m] = quad(axis.get(values));
                     law.x[m] = angles[*angle].theta[m];
                 }
                 Load::Slider { axis, ends, direction, between, law } => {
@@ -284,8 +286,9 @@ impl Loads {
 
     /// Adds the generalized forces of order n; `coefficient(b, i)` is Q_i of bundle b.
     #[inline(always)]
-    pub fn apply<'a, const L: usize, B: Bodies<L> + 'a>(
+    pub fn apply<'a, S: Simd, const L: usize, B: Bodies<L> + 'a>(
         &mut self,
+        simd: S,
         n: usize,
         coefficient: impl Fn(usize, usize) -> &'a B::Natural,
         forces: &mut [LaneVector<L>],
@@ -312,7 +315,7 @@ impl Loads {
                 }
                 Load::Torsion { seats, direction, law, .. } => {
                     law.find(n);
-                    let moment = scaled(&law.force, direction, n);
+                    let moment = scaled_quads(simd, &law.force, direction, n);
                     for (seat, sign) in seats.iter().zip([-1.0, 1.0]) {
                         if let Some([bundle, lane]) = *seat {
                             bundles[bundle].add_moment(lane, &(moment * sign));

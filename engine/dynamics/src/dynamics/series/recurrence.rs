@@ -1,6 +1,8 @@
 //! Arithmetic on power series, coefficient by coefficient — eq. (11.4).
 
+use super::lanes::{plus_whole, sum_whole};
 use nalgebra::Vector3;
+use pulp::Simd;
 use triad_linalg::fma;
 
 /// Does something with each pair of one list, from its end, and another that is as long, from its beginning: two pairs at a time, as
@@ -32,6 +34,48 @@ pub fn real(order: usize) -> f64 {
 
 /// Coefficients of a vector.
 pub type Vectors = Vec<Vector3<f64>>;
+
+/// Coefficients of four numbers, or of a vector and nothing.
+pub type Quads = Vec<[f64; 4]>;
+
+/// A vector as four numbers.
+#[inline(always)]
+pub fn quad([x, y, z]: [f64; 3]) -> [f64; 4] {
+    [x, y, z, 0.0]
+}
+
+/// The sum of products of the vectors of one list, from its beginning, with those of another, from its end: every second pair on its
+/// own, so that no sum waits for another.
+#[inline(always)]
+pub fn folded_vectors<S: Simd>(simd: S, a: &[[f64; 4]], b: &[[f64; 4]]) -> f64 {
+    let (mut sums, mut others) = ([0.0; 4], [0.0; 4]);
+    let ((heads, last), (first, tails)) = (a.as_chunks::<2>(), b.as_rchunks::<2>());
+    for ([a, next], [before, b]) in heads.iter().zip(tails.iter().rev()) {
+        sums = plus_whole(simd, a, b, &sums);
+        others = plus_whole(simd, next, before, &others);
+    }
+    for (a, b) in last.iter().zip(first) {
+        sums = plus_whole(simd, a, b, &sums);
+    }
+    let [x, y, z, _] = sum_whole(simd, &sums, &others);
+    x + y + z
+}
+
+/// Coefficient n of a v, a scalar times a vector.
+#[inline(always)]
+pub fn scaled_quads<S: Simd>(simd: S, a: &[f64], v: &[[f64; 4]], n: usize) -> Vector3<f64> {
+    let (mut sums, mut others) = ([0.0; 4], [0.0; 4]);
+    let ((heads, last), (first, tails)) = (a[..=n].as_chunks::<2>(), v[..=n].as_rchunks::<2>());
+    for ([a, next], [before, v]) in heads.iter().zip(tails.iter().rev()) {
+        sums = plus_whole(simd, &[*a; 4], v, &sums);
+        others = plus_whole(simd, &[*next; 4], before, &others);
+    }
+    for (a, v) in last.iter().zip(first) {
+        sums = plus_whole(simd, &[*a; 4], v, &sums);
+    }
+    let [x, y, z, _] = sum_whole(simd, &sums, &others);
+    Vector3::new(x, y, z)
+}
 
 /// The sum of products of the numbers of one list, from its beginning, with those of another, from its end: four sums beside each
 /// other, so that none waits for another.

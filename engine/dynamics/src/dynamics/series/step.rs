@@ -121,7 +121,7 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Evaluate<'_, L, B> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        self.0.begin_expansion();
+        self.0.begin_expansion(simd);
         self.0.solve_order(simd, 0);
     }
 }

@@ -11,6 +11,7 @@ use triad_dynamics::dynamics::series::{IslandSeries, MIN_TOLERANCE_REDUNDANT, St
 use triad_dynamics::model::BodyRef;
 use triad_dynamics::state::State;
 use triad_dynamics::system::System;
+use triad_dynamics::system::common_axes::{self, Origin, WithCommonAxes};
 use triad_dynamics::system::islands::{self, Island};
 use triad_dynamics::system::pivots::about_pivots;
 use triad_dynamics::system::planar::{self, Plane};
@@ -42,6 +43,8 @@ const MANY_HALVINGS: u64 = 3;
 pub struct IslandStepper {
     /// What is solved, if it is not the whole as it stands.
     own: Option<Box<System>>,
+    /// What the common vectors are that its series have.
+    commons: Vec<Origin>,
     /// Places of its joints and drivers among those of the whole.
     constraints: Option<Vec<usize>>,
     /// Joints that have no rows because they are pivots of planar bodies on the ground, with the others of these bodies.
@@ -85,6 +88,8 @@ impl IslandStepper {
         let q = &y[..whole.coordinates];
         let (reduced, in_plane) = reduced(system, q, skip);
         let solved = reduced.as_ref().unwrap_or(system);
+        let with_axes = if skip.axes && !in_plane { WithCommonAxes::new(solved, q) } else { None };
+        let expanded = with_axes.as_ref().map_or(solved, |with_axes| &with_axes.system);
         let order = order_for(tolerance, in_plane);
         let most = if system.bodies.len() > FEW_BODIES { order } else { MAX_ORDER };
         let rows = solved.solver_rows;
@@ -96,30 +101,32 @@ impl IslandStepper {
                 IslandSeries::in_space(measured, order, turns)
             }
         };
-        let mut series = series_of(solved, most);
+        let mut series = series_of(expanded, most);
         series.keep_constants(skip.constants);
         series.place(solved, t, y);
         let mut dependent = Vec::new();
         if (in_plane || redundant) && rows > 0 {
-            let mut measured = series_of(&solved.in_lengths(), 1);
+            let mut measured = series_of(&expanded.in_lengths(), 1);
             measured.place(solved, t, y);
             dependent = measured.find_dependent(system.length, redundant);
             series.leave_out(&dependent);
         }
         let redundant = !dependent.is_empty();
         if loops {
-            series.enable_probes(solved, &violation::row_sizes(solved));
+            series.enable_probes(expanded, &violation::row_sizes(expanded));
         }
         if whole.model.settings.error_estimate {
-            series.carry_errors(solved);
+            series.carry_errors(expanded);
         }
-        series.measure_power(solved, turns, &dependent);
+        series.measure_power(expanded, turns, &dependent);
         series.linearize();
         let tolerance = if redundant { tolerance.max(MIN_TOLERANCE_REDUNDANT) } else { tolerance };
         let (length, bodies, pivots) = (system.length, system.bodies.len(), rowless(solved));
+        let commons = with_axes.map_or_else(|| common_axes::origins(solved), |with_axes| with_axes.origins);
         Self {
             loops,
             own: reduced.or(own).map(Box::new),
+            commons,
             constraints,
             pivots,
             tolerance,
@@ -270,15 +277,24 @@ impl IslandStepper {
                 < DENSE_BREAKPOINTS * self.series.natural_step(order, tolerance)
     }
 
+    /// Axes of its joints that are kept by rows of common vectors.
+    pub fn axes(&self) -> usize {
+        self.commons.iter().filter(|origin| matches!(origin, Origin::Axis(_))).count()
+    }
+
     /// Multipliers of the solver rows at a state within the last step, with A there. The series of the whole in space have
     /// them; those of an island or of the plane do not.
-    pub fn multipliers(&self, system: &System, state: &State, jacobian: &TwistJacobian) -> Option<Vec<f64>> {
+    pub fn multipliers(&self, state: &State, jacobian: &TwistJacobian) -> Option<Vec<f64>> {
         let tau = state.time() - self.t_old;
         let inside = self.h_old > 0.0 && (0.0..=self.h_old).contains(&tau);
         if self.own.is_some() || !inside {
             return None;
         }
-        self.series.multipliers(system, tau, self.order_old, jacobian)
+        self.series.multipliers(tau, self.order_old, |k| match self.commons[k] {
+            Origin::CommonVector(row) => jacobian.transverse(row),
+            // Of s in s · t as it is written the gradient is t, and −n in a − s.
+            Origin::Axis(across) => across.map(|feature| -state.feature_value(feature)),
+        })
     }
 
     /// Work of drivers and of loads without potential from the start of its last step to time t, J.

@@ -3,7 +3,8 @@
 use crate::dynamics::series::bodies::LanePlace;
 use crate::dynamics::series::lanes::LaneVector;
 use crate::dynamics::series::recurrence::{
-    Vectors, dot, folded, inner_dot, product, quotient, scaled, square, value,
+    Quads, Vectors, folded, folded_vectors, inner_dot, product, quad, quotient, real, scaled, scaled_quads,
+    square, value,
 };
 use crate::state::AngleState;
 use crate::system::System;
@@ -11,6 +12,7 @@ use crate::system::feature::Difference;
 use crate::system::index::FeatureId;
 use crate::system::row::Form;
 use nalgebra::Vector3;
+use pulp::Simd;
 use triad_linalg::BlockCholesky;
 
 /// The angle of a joint, θ = atan2(a₂ · b, a₁ · b).
@@ -18,7 +20,7 @@ use triad_linalg::BlockCholesky;
 pub struct AngleSeries {
     places: [LanePlace; 3],
     /// Coefficients of a₁, a₂, b, of x = a₁ · b, y = a₂ · b and x² + y², and of x and y over x² + y².
-    vectors: [Vectors; 3],
+    vectors: [Quads; 3],
     x: Vec<f64>,
     y: Vec<f64>,
     square: Vec<f64>,
@@ -39,7 +41,7 @@ impl AngleSeries {
         let scalar = || vec![0.0; stride];
         Self {
             places,
-            vectors: [0; 3].map(|_| vec![Vector3::zeros(); stride]),
+            vectors: [0; 3].map(|_| vec![[0.0; 4]; stride]),
             x: scalar(),
             y: scalar(),
             square: scalar(),
@@ -59,13 +61,13 @@ impl AngleSeries {
 
     /// Takes over coefficient m of the features, all before it being known.
     #[inline(always)]
-    pub fn store<const L: usize>(&mut self, m: usize, values: &[LaneVector<L>]) {
+    pub fn store<S: Simd, const L: usize>(&mut self, simd: S, m: usize, values: &[LaneVector<L>]) {
         for (vectors, place) in self.vectors.iter_mut().zip(self.places) {
-            vectors[m] = place.get(values).into();
+            vectors[m] = quad(place.get(values));
         }
         let [a1, a2, b] = &self.vectors;
-        self.x[m] = dot(a1, b, m);
-        self.y[m] = dot(a2, b, m);
+        self.x[m] = folded_vectors(simd, &a1[..=m], &b[..=m]);
+        self.y[m] = folded_vectors(simd, &a2[..=m], &b[..=m]);
         self.square[m] = square(&self.x, m) + square(&self.y, m);
         if self.related {
             self.cosine[m] = quotient(self.x[m], &self.square, &self.cosine, m);
@@ -78,7 +80,7 @@ impl AngleSeries {
             self.theta[m] = self.term(m, self.x[m], self.y[m]);
         }
         for (rate, term) in self.rates.iter_mut().zip([self.x[m], self.y[m], self.theta[m]]) {
-            rate[m] = m as f64 * term;
+            rate[m] = real(m) * term;
         }
     }
 
@@ -88,15 +90,17 @@ impl AngleSeries {
         let (x, y) = (&self.x, &self.y);
         let [x_rate, y_rate, rate] = self.rates.each_ref().map(|rates| &rates[1..m]);
         let sum = folded(&x[1..m], y_rate) - folded(&y[1..m], x_rate) - folded(&self.square[1..m], rate);
-        let order = m as f64;
+        let order = real(m);
         (order * (x[0] * y_m - y[0] * x_m) + sum) / (order * self.square[0])
     }
 
     /// θ_m without what coefficient m of the features adds to it.
     #[inline(always)]
-    fn known(&self, m: usize) -> f64 {
+    fn known<S: Simd>(&self, simd: S, m: usize) -> f64 {
         let [a1, a2, b] = &self.vectors;
-        self.term(m, inner_dot(a1, b, m), inner_dot(a2, b, m))
+        let x = folded_vectors(simd, &a1[1..m], &b[1..m]);
+        let y = folded_vectors(simd, &a2[1..m], &b[1..m]);
+        self.term(m, x, y)
     }
 
     /// Ends a step: whole turns are counted from the value at its end.
@@ -222,9 +226,9 @@ impl Angles {
 
     /// Takes over coefficient m of all features.
     #[inline(always)]
-    pub fn store<const L: usize>(&mut self, m: usize, values: &[LaneVector<L>]) {
+    pub fn store<S: Simd, const L: usize>(&mut self, simd: S, m: usize, values: &[LaneVector<L>]) {
         for angle in &mut self.list {
-            angle.store(m, values);
+            angle.store(simd, m, values);
         }
         for relation in &mut self.relations {
             if let Some(slide) = &mut relation.slide {
@@ -253,10 +257,10 @@ impl Angles {
 
     /// What relations demand of coefficient m beyond its own part, times a factor.
     #[inline(always)]
-    pub fn demand(&self, m: usize, factor: f64, extra: &mut [f64]) {
+    pub fn demand<S: Simd>(&self, simd: S, m: usize, factor: f64, extra: &mut [f64]) {
         for relation in &self.relations {
             let turns = relation.angles.iter().flatten();
-            let mut known: f64 = turns.map(|t| t.factor * self.list[t.angle].known(m)).sum();
+            let mut known: f64 = turns.map(|t| t.factor * self.list[t.angle].known(simd, m)).sum();
             if let Some(slide) = &relation.slide {
                 known += slide.factor * inner_dot(&slide.sides[0], &slide.sides[1], m);
             }
@@ -302,7 +306,12 @@ impl Angles {
 
     /// Generalized forces of order n that multipliers of lower order make.
     #[inline(always)]
-    pub fn add_known_forces<const L: usize>(&mut self, n: usize, forces: &mut [LaneVector<L>]) {
+    pub fn add_known_forces<S: Simd, const L: usize>(
+        &mut self,
+        simd: S,
+        n: usize,
+        forces: &mut [LaneVector<L>],
+    ) {
         if n == 0 {
             return;
         }
@@ -315,9 +324,9 @@ impl Angles {
                 turn.sine[n] = product(lambda, &angle.sine, n);
                 let [a1, a2, b] = &angle.vectors;
                 let [on_a1, on_a2, on_b] = angle.places;
-                on_a1.add(forces, (scaled(&turn.sine, b, n) * turn.factor).into());
-                on_a2.add(forces, (scaled(&turn.cosine, b, n) * -turn.factor).into());
-                let across = scaled(&turn.sine, a1, n) - scaled(&turn.cosine, a2, n);
+                on_a1.add(forces, (scaled_quads(simd, &turn.sine, b, n) * turn.factor).into());
+                on_a2.add(forces, (scaled_quads(simd, &turn.cosine, b, n) * -turn.factor).into());
+                let across = scaled_quads(simd, &turn.sine, a1, n) - scaled_quads(simd, &turn.cosine, a2, n);
                 on_b.add(forces, (across * turn.factor).into());
             }
             let Some(slide) = slide else { continue };

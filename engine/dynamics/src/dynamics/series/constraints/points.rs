@@ -1,6 +1,8 @@
 //! The points of joints bundle by bundle: what they say of the rows that hold two of them together goes straight into the
 //! right-hand side, and multipliers come straight back as forces, four numbers at a time.
 
+use super::commons::{JointAxes, holds_vectors};
+use super::rows::CommonVector;
 use super::vectors::{JointVectors, held_products, index};
 use crate::dynamics::series::bodies::{Bodies, FeatureSlot, LanePlace};
 use crate::model::BodyRef;
@@ -36,6 +38,8 @@ pub struct JointPoints<const L: usize> {
     convolved: Slots,
     /// Those of products, if there are any.
     vectors: Option<JointVectors<L>>,
+    /// Common vectors, if there are any.
+    axes: Option<JointAxes<L>>,
 }
 
 /// Slots, bundle by bundle.
@@ -100,6 +104,9 @@ impl<const L: usize> JointPoints<L> {
             if matches!(row.form, Form::Product { .. }) && held.next() == Some(true) {
                 continue;
             }
+            if holds_vectors(system, &row.form) {
+                continue;
+            }
             for (k, feature) in row.form.features(&system.angles).into_iter().enumerate() {
                 let BodyRef::Moving(body) = system[feature].body else { continue };
                 if holds {
@@ -122,6 +129,7 @@ impl<const L: usize> JointPoints<L> {
             others: Slots::new(bundles, &is_other),
             convolved: Slots::new(bundles, &is_convolved),
             vectors: JointVectors::new(system, bundles, slots, place, factor, stride),
+            axes: JointAxes::new(system, bundles, slots, place, factor),
         };
         for bundle in bundles {
             let first = points.slots.len();
@@ -157,12 +165,21 @@ impl<const L: usize> JointPoints<L> {
         self.convolved.of(b)
     }
 
-    /// Takes over the factors of products at the point of expansion, from the numbers of all factors.
+    /// Takes over the factors of products at the point of expansion, from the numbers of all factors, and the directions across
+    /// common vectors where S was factored last.
     #[inline(always)]
-    pub fn take_factors(&mut self, numbers: &[f64]) {
+    pub fn take_factors(&mut self, numbers: &[f64], commons: &[CommonVector]) {
         if let Some(vectors) = &mut self.vectors {
             vectors.take_factors(numbers);
         }
+        if let Some(axes) = &mut self.axes {
+            axes.take_directions(commons);
+        }
+    }
+
+    /// Whether there are rows of vectors that no driver moves.
+    pub fn has_vectors(&self) -> bool {
+        self.vectors.is_some() || self.axes.is_some()
     }
 
     /// Adds to a right-hand side what the points of bundle b make of the bodies' part x of the unknown.
@@ -181,6 +198,9 @@ impl<const L: usize> JointPoints<L> {
         }
         if let Some(vectors) = &self.vectors {
             vectors.add_residual::<S, B>(simd, b, x, out);
+        }
+        if let Some(axes) = &self.axes {
+            axes.add_residual::<S, B>(simd, b, x, out);
         }
     }
 
@@ -210,6 +230,9 @@ impl<const L: usize> JointPoints<L> {
         }
         if let Some(vectors) = &self.vectors {
             vectors.add_forces::<S, B>(simd, b, multipliers, force);
+        }
+        if let Some(axes) = &self.axes {
+            axes.add_forces::<S, B>(simd, b, multipliers, force);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The rows of joints on series: what they demand of the next coefficients and the forces that their multipliers make.
 
+use super::commons::holds_vectors;
 use super::points::{NOWHERE, holds_points};
 use super::vectors::{held_products, index};
 use crate::dynamics::series::bodies::LanePlace;
@@ -26,8 +27,10 @@ pub struct CommonVector {
     a: LanePlace,
     b: LanePlace,
     row: usize,
-    /// Its place among the system's rows.
-    pub index: usize,
+    /// The first of the two rows among the system's solver rows.
+    pub solver: usize,
+    /// Whether [`super::JointPoints`] does not see to it, as something in it moves as prescribed.
+    driven: bool,
     /// The two directions where S was factored last.
     pub across: [[f64; 3]; 2],
     /// The two directions that the series at hand are written in.
@@ -88,7 +91,7 @@ impl<const L: usize> Rows<L> {
         let at = |f: FeatureId| place[f.index()];
         let mut held = held_products(system, L).into_iter();
         let pair = |d: Difference| [at(d.plus), d.minus.map_or(nowhere, at)];
-        for (index, form) in system.rows.iter().enumerate() {
+        for form in &system.rows {
             let row = factor.places()[form.solver];
             match form.form {
                 Form::Coincidence { a, b } => {
@@ -101,7 +104,8 @@ impl<const L: usize> Rows<L> {
                 Form::CommonVector { a, b } => {
                     let (a, b) = (at(a), at(b));
                     let (across, expanded) = ([[0.0; 3]; 2], [[0.0; 3]; 2]);
-                    rows.commons.push(CommonVector { a, b, row, index, across, expanded });
+                    let (solver, driven) = (form.solver, !holds_vectors(system, &form.form));
+                    rows.commons.push(CommonVector { a, b, row, solver, driven, across, expanded });
                 }
                 Form::Product { a, b, target } => {
                     let constant = if let Target::Constant(c) = target { c } else { 0.0 };
@@ -161,7 +165,7 @@ impl<const L: usize> Rows<L> {
     pub fn turn_common_vectors(&mut self, values: &[LaneVector<L>]) {
         for row in &mut self.commons {
             let s = Vector3::from(row.a.get(values));
-            row.across = orthonormal_basis(&(s / s.norm())).map(Into::into);
+            row.across = orthonormal_basis(&s).map(Into::into);
         }
     }
 
@@ -277,7 +281,7 @@ impl<const L: usize> Rows<L> {
                 out[c] = a[c] - b[c] + extra[c];
             }
         }
-        for row in &self.commons {
+        for row in self.commons.iter().filter(|row| row.driven) {
             let (a, b) = (row.a.get(values), row.b.get(values));
             for k in 0..2 {
                 let t = row.across[k];
@@ -306,7 +310,7 @@ impl<const L: usize> Rows<L> {
             row.a.add(forces, [-l[0], -l[1], -l[2]]);
             row.b.add(forces, l);
         }
-        for row in &self.commons {
+        for row in self.commons.iter().filter(|row| row.driven) {
             let l = &lambda[row.row..row.row + 2];
             let [t1, t2] = &row.across;
             let f = [0, 1, 2].map(|c| l[0] * t1[c] + l[1] * t2[c]);

@@ -94,7 +94,7 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Differ<'_, L, B> {
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) -> (usize, f64, bool) {
         let ([fewest, most], h) = (self.orders, self.h);
-        self.twin.begin_expansion();
+        self.twin.begin_expansion(simd);
         let mut power = 1.0;
         for k in 0..=most {
             if k >= 2 {
