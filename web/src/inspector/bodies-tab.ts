@@ -8,6 +8,7 @@ import { norm } from "../mechanics/vec";
 import type { Session } from "../session/session";
 import type { Panel } from "../ui/panel";
 import { liveTable } from "../ui/table";
+import { OF_BODIES, worthLine } from "./accuracy";
 
 const xyz = (a: Vec3, decimals = 4): string[] => a.map((part) => fixed(part, decimals));
 
@@ -24,7 +25,7 @@ export function bodiesTab(session: Session): Panel {
     column("vx", "m/s"),
     column("vy", "m/s"),
     column("vz", "m/s"),
-    column("speed", "m/s"),
+    column(t("speed"), "m/s"),
   ]);
   const turns = liveTable(t("Angular velocity, in the world frame"), t("Body"), [
     column("ωx", "rad/s"),
@@ -39,11 +40,14 @@ export function bodiesTab(session: Session): Panel {
   ]);
 
   const when = h("p", { class: "when" });
+  const worth = worthLine(OF_BODIES);
 
   const refresh = (): void => {
     const state = session.lastRecorded;
     const bodies = state?.bodies ?? [];
     if (state) setText(when, t("At {time}.", { time: seconds(state.time) }));
+    // Errors are told with states; between two of them, those of the one before it.
+    if (session.shown) worth.show(session.shown);
     places.update(
       bodies.map((body) => ({
         head: body.name,
@@ -62,5 +66,8 @@ export function bodiesTab(session: Session): Panel {
       ),
     );
   };
-  return { root: h("div", { class: "stack" }, when, places.root, turns.root, axes.root), refresh };
+  return {
+    root: h("div", { class: "stack" }, when, worth.root, places.root, turns.root, axes.root),
+    refresh,
+  };
 }

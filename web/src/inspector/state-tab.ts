@@ -1,7 +1,7 @@
 // The state that is shown: time, energy, constraint violation, work of the integrator, coordinates.
 
 import { api } from "../api/client";
-import type { Accuracy, SessionState } from "../api/types";
+import type { SessionState } from "../api/types";
 import { h, setText } from "../core/dom";
 import { fixed, num, sci, seconds } from "../core/format";
 import { t } from "../core/texts";
@@ -9,6 +9,7 @@ import { told } from "../core/told";
 import type { Session } from "../session/session";
 import type { Panel } from "../ui/panel";
 import { liveTable } from "../ui/table";
+import { meaning, within } from "./accuracy";
 
 /** Coordinates that are shown until all are wanted. */
 const FIRST_ROWS = 48;
@@ -21,16 +22,6 @@ interface Figure {
 function figure(label: string, about: string): Figure {
   const value = h("dd", null, "–");
   return { root: h("div", { class: "figure" }, h("dt", { title: about }, label), value), value };
-}
-
-/** About how far the numbers of a state may be off. */
-function within(state: SessionState, what: keyof Accuracy, unit: string): string {
-  const error = state.accuracy?.[what];
-  if (typeof error === "number") return t("about {error} {unit}", { error: sci(error, 1), unit });
-  const lost = state.error_unknown_from;
-  return typeof lost === "number" && !state.accuracy
-    ? t("unknown from {lost}", { lost: seconds(lost) })
-    : "–";
 }
 
 /** The figures of a state, and how each is written. */
@@ -139,7 +130,16 @@ export class StateTab implements Panel {
 
   constructor(private readonly session: Session) {
     const figures = h("dl", { class: "figures" }, ...this.figures.map((item) => item.root));
-    this.root = h("div", { class: "stack" }, this.when, figures, this.notes, this.table.root, this.more);
+    this.root = h(
+      "div",
+      { class: "stack" },
+      this.when,
+      figures,
+      meaning(),
+      this.notes,
+      this.table.root,
+      this.more,
+    );
   }
 
   refresh(): void {

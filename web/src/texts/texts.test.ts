@@ -100,6 +100,15 @@ function isWritten(node: ts.Node, words: string): boolean {
   return prose;
 }
 
+/** Whether a string stands where an option or a column has its word, single and small: `["none", "none"]`, `column("speed")`. */
+function isLabel(node: ts.Node, words: string): boolean {
+  if (!/^\p{Ll}{4,}$/u.test(words)) return false;
+  const above = node.parent;
+  if (ts.isArrayLiteralExpression(above) && ts.isArrayLiteralExpression(above.parent))
+    return above.elements[1] === node && wordsOf(above.elements[0] as ts.Node) === words;
+  return ts.isCallExpression(above) && above.expression.getText() === "column" && above.arguments[0] === node;
+}
+
 /** The whole value that a string is a choice of. */
 function given(node: ts.Node): ts.Node {
   const above = node.parent;
@@ -143,7 +152,7 @@ describe("the catalogue of texts", () => {
     const loose: string[] = [];
     walk((node) => {
       const words = wordsOf(node);
-      if (words === undefined || isText(node) || !isWritten(node, words)) return;
+      if (words === undefined || isText(node) || !(isWritten(node, words) || isLabel(node, words))) return;
       loose.push(`${placeOf(node)} ${JSON.stringify(words)}`);
     });
     expect(loose).toEqual([]);

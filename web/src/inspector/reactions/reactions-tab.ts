@@ -13,6 +13,7 @@ import type { Session } from "../../session/session";
 import { drawnOf, textOf } from "../../session/share";
 import { empty, problemNotice } from "../../ui/notice";
 import type { Panel } from "../../ui/panel";
+import { OF_JOINTS, worthLine } from "../accuracy";
 import { paintFreeBody } from "./free-body";
 import { card, type JointReaction } from "./reaction-card";
 import { givenUp } from "./wording";
@@ -28,6 +29,7 @@ export class ReactionsTab implements Panel {
   private readonly shared = h("div", { class: "stack" });
   private readonly cutFree = h("div", { class: "stack", hidden: true });
   private readonly when = h("p", { class: "when" });
+  private readonly worth = worthLine(OF_JOINTS);
   private readonly on: Choice;
   private readonly about: Choice;
   private readonly frame: Choice;
@@ -108,10 +110,11 @@ export class ReactionsTab implements Panel {
       "div",
       { class: "stack" },
       h("div", { class: "switches" }, this.on.root, this.about.root, this.frame.root, this.drawn.root, fit),
+      this.when,
+      this.worth.root,
       this.shared,
       this.cutFree,
       this.list,
-      this.when,
     );
   }
 
@@ -152,6 +155,8 @@ export class ReactionsTab implements Panel {
       return card(entry, selected, () => session.select(selected ? null : entry.joint));
     });
     setText(this.when, t("At {time}.", { time: seconds(this.answer?.reactions.time ?? state.time) }));
+    this.worth.root.hidden = cards.length === 0;
+    this.worth.show(state);
     list.replaceChildren(...cards);
     if (cards.length === 0)
       list.replaceChildren(
@@ -167,7 +172,7 @@ export class ReactionsTab implements Panel {
     this.drawn.offer([
       ["joint", t("selected joint")],
       ["all", t("all joints")],
-      ["none", "none"],
+      ["none", t("none")],
       ...(latest?.bodies ?? []).map(({ name }): [string, string] => [
         `body:${name}`,
         t("{name} cut free", { name }),

@@ -300,7 +300,22 @@ export const inspector = {
   "The motion is the same however these joints share the load. What is shown is the smallest set of multipliers that gives it.":
     "Die Bewegung ist dieselbe, wie immer sich diese Gelenke die Last teilen. Gezeigt wird der kleinste Satz von Multiplikatoren, der sie ergibt.",
   "To make them unique:": "Um sie eindeutig zu machen:",
-  "about {error} {unit}": "etwa {error} {unit}",
+  "about {error}": "etwa {error}",
+  "positions {error}": "Lagen {error}",
+  "velocities {error}": "Geschwindigkeiten {error}",
+  "directions {error}": "Richtungen {error}",
+  "angular velocities {error}": "Winkelgeschwindigkeiten {error}",
+  "forces {error}": "Kräfte {error}",
+  "moments about the joint {error}": "Momente um das Gelenk {error}",
+  "Estimated error at {time}, the largest of all: {errors}.":
+    "Geschätzter Fehler bei {time}, der größte von allen: {errors}.",
+  "From {lost} on nothing is known of the error: these numbers may be far off.":
+    "Ab {lost} ist vom Fehler nichts bekannt: diese Zahlen können weit daneben liegen.",
+  "This run gives no estimate of their error.": "Dieser Lauf schätzt ihren Fehler nicht.",
+  "“Right to” is the run’s own estimate of its error since the start, the largest over all bodies or joints: of the method and its rounding. Whether the model is the mechanism is not in it. {more}.":
+    "„Genau auf“ ist die eigene Schätzung des Laufs für seinen Fehler seit dem Start, der größte über alle Körper oder Gelenke: des Verfahrens und seiner Rundung. Ob das Modell der Mechanismus ist, ist nicht darin. {more}.",
+  "What it promises": "Was sie verspricht",
+  speed: "Betrag",
   "unknown from {lost}": "unbekannt ab {lost}",
   "Simulated time": "Simulierte Zeit",
   "Kinetic and potential energy together": "Kinetische und potentielle Energie zusammen",
