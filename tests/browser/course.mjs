@@ -1,7 +1,7 @@
 // What the lessons of the course need from each other, and a course of one's own. Started by tests/tests/browser.rs:
 //   node course.mjs http://127.0.0.1:PORT PICTURE_FOLDER
 // By keyboard alone: a lesson is left out, what is used too early is told, what is needed is taken, a lesson is moved and keeps
-// the focus, the file is saved; axe in light and dark, on a wide screen and on a phone.
+// the focus, the file is saved; axe in light and dark, on a wide screen and on a phone; every lesson fits a phone.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -90,4 +90,21 @@ async function all() {
   assert.match(file, /^opens = \{ right = (true|false)/m);
 }
 
-await walk({ name: "course", pictures, browser, complaints }, all);
+/** A lesson is read on a phone without pushing the page from side to side: no formula, address or field is wider than it. */
+async function onAPhone() {
+  const lessons = await (await page.request.get(`${address}/api/v1/lessons`)).json();
+  await page.setViewportSize({ width: 360, height: 780 });
+  const wide = [];
+  for (const { slug } of lessons) {
+    await page.goto(`${address}/lessons/${slug}`);
+    await page.locator(".prose").first().waitFor();
+    await page.waitForFunction(() => [...document.querySelectorAll(".math")].every((formula) => formula.dataset.set));
+    const over = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+    if (over > 0) wide.push(`${slug}: ${over} px`);
+  }
+  assert(lessons.length > 30, `${lessons.length} lessons`);
+  assert.deepEqual(wide, [], "lessons wider than a phone");
+  say(`${lessons.length} lessons on a phone`);
+}
+
+await walk({ name: "course", pictures, browser, complaints }, all, onAPhone);
