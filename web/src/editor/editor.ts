@@ -8,6 +8,7 @@ import { told } from "../core/told";
 
 import { icon } from "../ui/icons";
 import { problemNotice, type SaidProblem } from "../ui/notice";
+import { firstFault } from "./json";
 import { isMarkup } from "./markup";
 import { inText, type Meant, meantBy } from "./meant";
 import { lineOf, locate } from "./pointer";
@@ -174,31 +175,20 @@ function endOfValue(text: string, offset: number): number {
   return offset + (rest?.[0].trimEnd().length ?? 1);
 }
 
-/** Text that is not JSON never leaves the page: the browser knows the place already. */
+/** Text that is not JSON never leaves the page. */
 function syntaxProblem(text: string): { problem: SaidProblem; line: number } | undefined {
-  try {
-    JSON.parse(text);
-    return undefined;
-  } catch (error) {
-    const message = error instanceof Error ? error.message : String(error);
-    const position = /position (\d+)/.exec(message)?.[1];
-    const stated = /line (\d+)/.exec(message)?.[1];
-    const line = position
-      ? lineOf(text, Number(position))
-      : stated
-        ? Number(stated)
-        : text.split("\n").length;
-    return {
-      line,
-      problem: {
-        code: "not-json",
-        said: ["title", "hint"],
-        title: t("Line {line} is not JSON yet", { line }),
-        detail: message.replace(/ in JSON at position.*$/, ""),
-        hint: t("Look for a missing comma, quote or bracket just before this place."),
-      },
-    };
-  }
+  const fault = firstFault(text);
+  if (!fault) return undefined;
+  const line = lineOf(text, fault.at);
+  return {
+    line,
+    problem: {
+      code: "not-json",
+      said: ["title", "detail"],
+      title: t("Line {line} is not JSON yet", { line }),
+      detail: fault.why,
+    },
+  };
 }
 
 function reportView(report: CheckReport): HTMLElement {

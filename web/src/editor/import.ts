@@ -8,6 +8,7 @@ import { navigate } from "../core/router";
 import { t } from "../core/texts";
 import { dialog } from "../ui/dialog";
 import { problemNotice } from "../ui/notice";
+import { firstFault } from "./json";
 import { lineNamed } from "./markup";
 import { pretty } from "./pointer";
 
@@ -113,7 +114,9 @@ async function show(place: HTMLElement, robot: Robot, open: (scene: string) => v
     const detail = error instanceof ApiError ? error.problem.detail : undefined;
     const named = lineNamed(detail, robot.urdf);
     const wrong =
-      error instanceof SyntaxError ? { title: t("The side-car is not JSON"), detail: error.message } : error;
+      error instanceof SyntaxError
+        ? { title: t("The side-car is not JSON"), detail: firstFault(robot.side ?? "")?.why }
+        : error;
     place.replaceChildren(
       problemNotice(wrong),
       ...(named

@@ -3,8 +3,27 @@
 export const learning = {
   "Scene, JSON": "Szene, JSON",
   "Line {line} is not JSON yet": "Zeile {line} ist noch kein JSON",
-  "Look for a missing comma, quote or bracket just before this place.":
-    "Suche kurz vor dieser Stelle nach einem fehlenden Komma, Anführungszeichen oder einer Klammer.",
+  "The scene ended before this.": "Die Szene war vor dieser Stelle zu Ende.",
+  "{word} is not a number: write one like -0.5, 12 or 1e-3.":
+    "{word} ist keine Zahl: schreibe sie wie -0.5, 12 oder 1e-3.",
+  "{word} is neither a number nor a text: a text stands between double quotes.":
+    "{word} ist weder Zahl noch Text: ein Text steht zwischen doppelten Anführungszeichen.",
+  "The text ends here, and something is still open.": "Hier endet der Text, und etwas ist noch offen.",
+  "A comment: JSON has none.": "Ein Kommentar: in JSON gibt es keine.",
+  'A text stands between straight double quotes: "like this".':
+    'Ein Text steht zwischen geraden doppelten Anführungszeichen: "so".',
+  "A value is missing before {sign}": "Vor {sign} fehlt ein Wert",
+  "This text has no quote at its end.": "Diesem Text fehlt das Anführungszeichen am Ende.",
+  "In this text stands a sign that JSON writes otherwise: a backslash as \\\\.":
+    "In diesem Text steht ein Zeichen, das JSON anders schreibt: einen Rückstrich als \\\\.",
+  "The key {word} stands between double quotes.":
+    "Der Schlüssel {word} steht zwischen doppelten Anführungszeichen.",
+  "A colon is missing between the key and its value.":
+    "Zwischen dem Schlüssel und seinem Wert fehlt ein Doppelpunkt.",
+  "The comma before {close} is too many.": "Das Komma vor {close} ist zu viel.",
+  "The text ends here, and {close} is missing.": "Hier endet der Text, und {close} fehlt.",
+  "{sign} stands here, where {close} is missing.": "Hier steht {sign}, wo {close} fehlt.",
+  "A comma is missing before this.": "Vor dieser Stelle fehlt ein Komma.",
   "Result of the check": "Ergebnis der Prüfung",
   "This scene can run. It has {degrees} of freedom.": "Diese Szene kann laufen. Freiheit: {degrees}.",
   "Redundant rows": "Überzählige Zeilen",

@@ -56,22 +56,6 @@ export const told: Record<string, string> = {
   "Room full": "Der Raum ist voll",
   "Too many rooms": "Alle Räume sind in Gebrauch",
 
-  // What browsers say of a text that is not JSON.
-  "Expected ',' or '}' after property value": "nach dem Wert fehlt ein Komma oder eine schließende Klammer }",
-  "Expected ',' or ']' after array element":
-    "nach dem Eintrag der Liste fehlt ein Komma oder eine schließende Klammer ]",
-  "Expected double-quoted property name": "hier muss ein Schlüssel in Anführungszeichen stehen",
-  "Expected property name or '}'": "hier muss ein Schlüssel oder eine schließende Klammer } stehen",
-  "Expected ':' after property name": "nach dem Schlüssel fehlt ein Doppelpunkt",
-  "Unexpected end of JSON input": "der Text endet zu früh",
-  "Unexpected non-whitespace character after JSON": "nach dem Ende der Szene steht noch etwas",
-  "Unexpected token {token}, {excerpt} is not valid JSON": "{token} passt hier nicht: {excerpt}",
-  "Unterminated string": "ein Anführungszeichen wird nicht geschlossen",
-  "Bad control character in string literal":
-    "in Anführungszeichen steht ein Zeilenumbruch oder ein anderes Steuerzeichen",
-  "Bad escaped character": "nach dem umgekehrten Schrägstrich steht ein falsches Zeichen",
-  "No number after minus sign": "nach dem Minus fehlt die Zahl",
-
   // A scene's text.
   "{path} (line {line}, column {column}): {reason}": "{path} (Zeile {line}, Spalte {column}): {reason}",
   "{path} (line {line}): {reason}": "{path} (Zeile {line}): {reason}",
