@@ -136,6 +136,13 @@ async function lookingBack() {
   await other.getByRole("tab", { name: "Reactions" }).click();
   await until("the same reaction", force, (text) => text === then);
   await other.context().close();
+  // A time is typed with its unit or without; what is none is told, and stays to be mended.
+  await page.locator(".clock").fill("abc");
+  await page.locator(".clock").press("Enter");
+  assert.match(await page.locator(".clock").evaluate((field) => `${field.value}: ${field.validationMessage}`), /^abc: Write a time in seconds/);
+  await page.locator(".clock").fill("0.2 s");
+  await page.locator(".clock").press("Enter");
+  await until("the typed time", () => clock(page), (time) => time === 0.2);
   // Files.
   await page.getByRole("tab", { name: "Plots" }).click();
   for (const [kind, start] of [["CSV", "time,"], ["SVG", "<svg"], ["PNG", "\u0089PNG"]]) {

@@ -171,13 +171,22 @@ export class Transport {
     this.speed.addEventListener("change", () => session.setSpeed(Number(this.speed.value)));
     timeline.addEventListener("input", () => session.seek(Number(timeline.value)));
     clock.addEventListener("focus", () => clock.select());
-    clock.addEventListener("blur", () => this.paint());
+    clock.addEventListener("blur", () => {
+      clock.setCustomValidity("");
+      this.paint();
+    });
+    clock.addEventListener("input", () => clock.setCustomValidity(""));
     clock.addEventListener("keydown", (event) => {
       if (event.key === "Escape") clock.blur();
       if (event.key !== "Enter") return;
-      const time = typedNumber(clock.value);
-      clock.blur();
-      if (Number.isFinite(time)) void session.goTo(time);
+      const time = typedNumber(clock.value.replace(/\s*s\s*$/, ""));
+      if (Number.isFinite(time)) {
+        clock.blur();
+        void session.goTo(time);
+        return;
+      }
+      clock.setCustomValidity(t("Write a time in seconds, such as 1.5"));
+      clock.reportValidity();
     });
   }
 
