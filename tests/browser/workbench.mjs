@@ -118,6 +118,7 @@ async function lookingBack() {
   const then = await until("reactions of then", force, (text) => text !== newest);
   await page.getByText("At 0.100 s.").waitFor();
   await page.getByText(/^Estimated error at 0\.100 s, the largest of all: forces \S+\sN, moments about the joint \S+\sN\sm\.$/).waitFor();
+  assert.equal(await page.getByRole("heading", { name: "Inspector", level: 2 }).count(), 1, "the joints' headings stand below one");
   await page.getByRole("tab", { name: "Jacobian" }).click();
   await page.getByText(/rank 59.*at 0\.100 s/).waitFor();
   await page.getByText(/of these \d+ rows (is|are) redundant/).first().waitFor();

@@ -69,7 +69,13 @@ export function inspector(
     );
   });
   return {
-    root: h("section", { class: "inspector", "aria-label": t("Inspector") }, bar.root),
+    root: h(
+      "section",
+      { class: "inspector", "aria-label": t("Inspector") },
+      // For those who go from heading to heading: those of joints and results stand below it.
+      h("h2", { class: "visually-hidden" }, t("Inspector")),
+      bar.root,
+    ),
     current: bar.current,
     select: (key) => (made[key] && bar.current() !== key ? bar.select(key) : undefined),
   };
