@@ -1,7 +1,8 @@
 import { expect, it } from "vitest";
 import type { Reactions } from "../../api/types";
 import { state } from "../../testing/state";
-import { charts, labelOf, markShared } from "./charts";
+import { charts, labelOf, lostIn, markShared, within } from "./charts";
+import { plotSvg } from "./svg-file";
 
 it("curves of reactions that are not unique are marked, in the plot of the joint and in its hodograph", () => {
   const force = { joint: "pin", on: "bob", by: "ground", force: [1, 2, 3], moment: [0, 0, 0], at: [0, 0, 0] };
@@ -21,4 +22,23 @@ it("curves of reactions that are not unique are marked, in the plot of the joint
   const all = { reactions: [{ joint: "pin", force: parts(9), moment: parts(9) }] };
   markShared(available, all as unknown as Reactions);
   expect(labels("Force in pin")).toEqual(["Fx", "Fy", "Fz"]);
+});
+
+it("where nothing is known of the error any more, plots and values say so", () => {
+  const lost = { ...state(9, 1), error_unknown_from: 4.5 };
+  const available = charts(lost);
+  const of = (label: string) =>
+    available.find((chart) => chart.label === label) as (typeof available)[number];
+  expect(lostIn(of("Position of bob"), lost)).toBe(4.5);
+  expect(lostIn(of("Position of bob"), state(9, 1))).toBeUndefined();
+  expect(lostIn(of("Constraint violation"), lost)).toBeUndefined();
+  const [x] = of("Position of bob").curves;
+  expect(x && within(x, lost)).toBe(" ± ?");
+  expect(x && within(x, state(9, 1))).toBe("");
+  const line = { label: "x", unit: "m", values: [0, 1], color: "red", dash: [] };
+  const picture = (from?: number) =>
+    plotSvg("x", [0, 9], [line], { ink: "#000", line: "#ccc", paper: "#fff" }, [], from);
+  expect(picture(4.5)).toMatch(/<rect x="482.0" [^>]*fill-opacity="0\.16"\/>.*error unknown/);
+  expect(picture()).not.toContain("error unknown");
+  expect(picture(9)).not.toContain("error unknown");
 });

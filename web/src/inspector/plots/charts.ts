@@ -1,6 +1,7 @@
 // What can be plotted of a run: energy, constraint violation, errors, the motion of each body, the reaction of each joint.
 
 import type { Accuracy, Reactions, SessionState } from "../../api/types";
+import { sci } from "../../core/format";
 import { t } from "../../core/texts";
 import { type Frame, motionIn, reactionIn } from "../../session/track";
 
@@ -64,6 +65,18 @@ function components(
 /** The estimated error of a curve in a state, where it is known. */
 export function errorOf(curve: Curve, state: SessionState): number | undefined {
   return (curve.error && state.accuracy?.[curve.error]) ?? undefined;
+}
+
+/** From when on nothing is known of the error of what a chart shows; how far constraints are open, and errors, are known themselves. */
+export function lostIn(chart: Chart, state: SessionState): number | undefined {
+  return chart.log ? undefined : (state.error_unknown_from ?? undefined);
+}
+
+/** How far a curve may be off in a state, behind its value. */
+export function within(curve: Curve, state: SessionState): string {
+  const error = errorOf(curve, state);
+  if (error !== undefined) return ` ± ${sci(error, 1)}`;
+  return curve.error && typeof state.error_unknown_from === "number" && !state.accuracy ? " ± ?" : "";
 }
 
 /** The errors of a run that estimates them. */

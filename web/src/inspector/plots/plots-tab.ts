@@ -11,7 +11,7 @@ import { keptGhost } from "../../stage/ghosts";
 import { empty } from "../../ui/notice";
 import type { Panel } from "../../ui/panel";
 import { type LiveTable, liveTable } from "../../ui/table";
-import { type Chart, charts, errorOf, labelOf, markShared, quantities } from "./charts";
+import { type Chart, charts, labelOf, lostIn, markShared, quantities, within } from "./charts";
 import { columnsOf } from "./compare";
 import { ExtremeMarks } from "./marks";
 import { type Comparison, compare, keptRun, type Overlay, reference } from "./overlay";
@@ -35,6 +35,8 @@ export class PlotsTab implements Panel {
     { class: "help", hidden: true },
     t("Discs mark what is known of the curves; a thin line only joins those that are far apart."),
   );
+  /** From when on the error is not known. */
+  private readonly lost = h("p", { class: "help", role: "note", hidden: true });
   /** What ≈ means. */
   private readonly shared = h(
     "p",
@@ -117,9 +119,7 @@ export class PlotsTab implements Panel {
     if (!chart) return;
     const samples = samplesOf(chart, this.session);
     const values = quantities(chart).map((curve) => {
-      const error = errorOf(curve, state);
-      const within = error === undefined ? "" : ` ± ${sci(error, 1)}`;
-      return `${labelOf(curve)} = ${num(curve.of(state), 6)}${within} ${curve.unit}`.trim();
+      return `${labelOf(curve)} = ${num(curve.of(state), 6)}${within(curve, state)} ${curve.unit}`.trim();
     });
     this.askWhichAreUnique(chart, state);
     this.shared.hidden = !quantities(chart).some((curve) => curve.shared);
@@ -128,6 +128,15 @@ export class PlotsTab implements Panel {
       values: values.join(",  "),
     });
     this.fillTable(chart, samples);
+    const lost = this.lostIn(chart);
+    this.lost.hidden = lost === undefined;
+    if (lost !== undefined)
+      setText(
+        this.lost,
+        t("From {lost} on nothing is known of the error: the curves may be far off there.", {
+          lost: seconds(lost),
+        }),
+      );
     this.marks.update(chart, samples);
     this.joined.hidden = !samples.apart.includes(true);
     if (samples.times.length < 2)
@@ -163,6 +172,7 @@ export class PlotsTab implements Panel {
         ),
       ),
       this.canvas,
+      this.lost,
       this.joined,
       this.shared,
       this.marks.root,
@@ -170,6 +180,12 @@ export class PlotsTab implements Panel {
       this.readout,
       this.table,
     );
+  }
+
+  /** From when on nothing is known of the errors of the run as far as it has come. */
+  private lostIn(chart: Chart): number | undefined {
+    const { latest } = this.session;
+    return latest && lostIn(chart, latest);
   }
 
   private chart(): Chart | undefined {
@@ -226,6 +242,7 @@ export class PlotsTab implements Panel {
       times: samples.times,
       curves: lines,
       apart: samples.apart,
+      lost: this.lostIn(chart),
       seek: (time) => this.session.seek(time),
     });
   }
@@ -343,6 +360,7 @@ export class PlotsTab implements Panel {
       this.compared(chart, samples).lines.map((line) => ({ ...line, color: color(line.color) })),
       colors,
       samples.apart,
+      this.lostIn(chart),
     );
     saveFile(new Blob([text], { type: "image/svg+xml" }), fileName(chart, "svg"));
   }

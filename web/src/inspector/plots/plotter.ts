@@ -4,7 +4,7 @@ import uPlot from "uplot";
 import { t } from "../../core/texts";
 import "uplot/dist/uPlot.min.css";
 import { lonely } from "./samples";
-import { JOIN_DASH, type Line, tickLabels } from "./svg-file";
+import { JOIN_DASH, type Line, SHADE, tickLabels } from "./svg-file";
 
 export interface Plot {
   /** A change of this key builds the plot anew. */
@@ -15,6 +15,8 @@ export interface Plot {
   curves: Line[];
   /** Between which times a line only joins marks. */
   apart: readonly boolean[];
+  /** From when on the run knows nothing of its error. */
+  lost: number | undefined;
   seek: (time: number) => void;
 }
 
@@ -29,6 +31,7 @@ const heightOf = (width: number): number => Math.max(LOW, Math.min(HIGH, Math.ro
 interface Live {
   at: number;
   apart: readonly boolean[];
+  lost: number | undefined;
 }
 const plots = new WeakMap<HTMLElement, { key: string; plot: uPlot; live: Live }>();
 
@@ -43,11 +46,11 @@ export function draw(place: HTMLElement, drawing: Plot): void {
   if (entry?.key !== drawing.key || !place.contains(entry.plot.root)) {
     entry?.plot.destroy();
     place.replaceChildren();
-    const live = { at: drawing.cursor, apart: drawing.apart };
+    const live = { at: drawing.cursor, apart: drawing.apart, lost: drawing.lost };
     entry = { key: drawing.key, live, plot: build(place, drawing, data, live) };
     plots.set(place, entry);
   }
-  Object.assign(entry.live, { at: drawing.cursor, apart: drawing.apart });
+  Object.assign(entry.live, { at: drawing.cursor, apart: drawing.apart, lost: drawing.lost });
   if (entry.plot.width !== place.clientWidth && place.clientWidth > 0)
     entry.plot.setSize({ width: place.clientWidth, height: heightOf(place.clientWidth) });
   entry.plot.setData(data);
@@ -116,7 +119,10 @@ function build(place: HTMLElement, drawing: Plot, data: uPlot.AlignedData, live:
         series: [1 + 2 * drawing.curves.length + 2 * k, 2 + 2 * drawing.curves.length + 2 * k],
         fill: `color-mix(in srgb, ${color(curve.color)} 22%, transparent)`,
       })),
-      hooks: { draw: [(self) => drawCursor(self, live.at, color("--accent"))] },
+      hooks: {
+        drawClear: [(self) => shadeLost(self, live.lost, color("--ink-3"))],
+        draw: [(self) => drawCursor(self, live.at, color("--accent"))],
+      },
       cursor: { drag: { x: false, y: false } },
       legend: { live: false },
     },
@@ -153,6 +159,20 @@ const joining = (curve: Line, stroke: string, live: Live): uPlot.Series => ({
     fill: stroke,
   },
 });
+
+/** A shade below the curves where nothing is known of their error. */
+function shadeLost(plot: uPlot, lost: number | undefined, color: string): void {
+  if (lost === undefined) return;
+  const { ctx, bbox } = plot;
+  const right = bbox.left + bbox.width;
+  const x = Math.max(bbox.left, Math.round(plot.valToPos(lost, "x", true)));
+  if (!(x < right)) return;
+  ctx.save();
+  ctx.globalAlpha = SHADE;
+  ctx.fillStyle = color;
+  ctx.fillRect(x, bbox.top, right - x, bbox.height);
+  ctx.restore();
+}
 
 /** The line at the time that the page shows. */
 function drawCursor(plot: uPlot, time: number, color: string): void {

@@ -14,6 +14,8 @@ export interface Line {
 
 /** Dashes of a line that only joins samples which are far apart. */
 export const JOIN_DASH = [1, 3];
+/** How strong the shade is where nothing is known of the error, from 0 to 1. */
+export const SHADE = 0.16;
 /** Size of the picture, px. */
 const WIDTH = 900;
 const HEIGHT = 520;
@@ -42,6 +44,7 @@ export function plotSvg(
   lines: Line[],
   colors: Colors,
   apart: readonly boolean[] = [],
+  lost?: number,
 ): string {
   const numbers = lines.flatMap((line) =>
     line.values.filter((value): value is number => value !== null && Number.isFinite(value)),
@@ -52,6 +55,7 @@ export function plotSvg(
   const x = (t: number): number => LEFT + ((t - x0) / (x1 - x0 || 1)) * (RIGHT - LEFT);
   const y = (v: number): number => BOTTOM - ((v - y0) / (y1 - y0)) * (BOTTOM - TOP);
   const parts = [
+    ...(lost === undefined || lost >= x1 ? [] : shade(x(Math.max(lost, x0)), colors)),
     ...mesh(
       { left: LEFT, right: RIGHT, top: TOP, bottom: BOTTOM },
       [
@@ -68,6 +72,12 @@ export function plotSvg(
   ];
   return [openSvg(title, WIDTH, HEIGHT, 16, colors), ...parts, "</svg>\n"].join("");
 }
+
+/** Where nothing is known of the error, and that it is so. */
+const shade = (from: number, colors: Colors): string[] => [
+  `<rect x="${r(from)}" y="${TOP}" width="${r(RIGHT - from)}" height="${BOTTOM - TOP}" fill="${colors.ink}" fill-opacity="${SHADE}"/>`,
+  text(`x="${RIGHT - 8}" y="${TOP + 20}" text-anchor="end"`, t("error unknown"), colors),
+];
 
 /** The beginning of a file: its title for those who do not see it, and the paper. */
 export function openSvg(title: string, width: number, height: number, font: number, colors: Colors): string {

@@ -312,6 +312,9 @@ export const inspector = {
     "Geschätzter Fehler bei {time}, der größte von allen: {errors}.",
   "From {lost} on nothing is known of the error: these numbers may be far off.":
     "Ab {lost} ist vom Fehler nichts bekannt: diese Zahlen können weit daneben liegen.",
+  "From {lost} on nothing is known of the error: the curves may be far off there.":
+    "Ab {lost} ist vom Fehler nichts bekannt: die Kurven können dort weit daneben liegen.",
+  "error unknown": "Fehler unbekannt",
   "This run gives no estimate of their error.": "Dieser Lauf schätzt ihren Fehler nicht.",
   "“Right to” is the run’s own estimate of its error since the start, the largest over all bodies or joints: of the method and its rounding. Whether the model is the mechanism is not in it. {more}.":
     "„Genau auf“ ist die eigene Schätzung des Laufs für seinen Fehler seit dem Start, der größte über alle Körper oder Gelenke: des Verfahrens und seiner Rundung. Ob das Modell der Mechanismus ist, ist nicht darin. {more}.",
