@@ -40,6 +40,7 @@ async function editor() {
     [(text) => text.replace('"name": "pin"', '"name": "ground"'), /„ground“ kann kein Name sein/, '"ground" cannot be the name of an element'],
     [(text) => text.replace(/,\s*"bodies"/, ' "bodies"'), /^Vor dieser Stelle fehlt ein Komma\.$/],
     [(text) => text.replace(/"mass": [\d.]+/, '"mass": NaN'), /^NaN ist weder Zahl noch Text/],
+    [(text) => text.replace(/"mass": [\d.]+/, '"mass": "heavy"'), /string "heavy" statt einer Zahl$/, 'invalid type: string "heavy", expected a number'],
   ]) {
     await write(page, () => change(right));
     await notice.getByText(german).first().waitFor();

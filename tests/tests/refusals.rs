@@ -99,6 +99,11 @@ fn texts_that_are_no_scene() {
         ("an unknown key", with("/bodies/0/colour", json!("red")).to_string()),
         ("a word where a number belongs", with("/bodies/0/mass", json!("heavy")).to_string()),
         ("a kind of joint that does not exist", with("/joints/0/type", json!("hinge")).to_string()),
+        ("no list", with("/bodies", json!("bob")).to_string()),
+        ("a number in place of a joint", with("/joints/0", json!(1)).to_string()),
+        ("four components", with("/gravity", json!([0, 1, 2, 3])).to_string()),
+        ("a list in place of a scene", "[1, 2]".to_owned()),
+        ("a number in place of a word", with("/joints/0/type", json!(1)).to_string()),
         ("two components", with("/gravity", json!([0, 1])).to_string()),
         ("no name", good().to_string().replacen("\"name\":\"good\",", "", 1)),
     ] {

@@ -94,7 +94,7 @@ pub(crate) fn plain_error(error: &serde_json::Error, pointer: &str) -> SceneErro
     // The place is where the reader noticed it: the brace behind all that is there.
     let reason = match reason.strip_prefix("missing field ") {
         Some(key) => format!("{key} is missing: write it between the braces that end here"),
-        None => reason.to_owned(),
+        None => in_plain_words(reason),
     };
     SceneError::Syntax {
         path: "scene".to_owned(),
@@ -103,4 +103,25 @@ pub(crate) fn plain_error(error: &serde_json::Error, pointer: &str) -> SceneErro
         column: error.column(),
         reason,
     }
+}
+
+/// What the reader expected, without the words of this program's language.
+fn in_plain_words(reason: &str) -> String {
+    match reason {
+        // Behind the components that a vector has.
+        "trailing characters" => return "more values than belong here".to_owned(),
+        // A number where a word or an object stands.
+        "expected value" => return "another kind of value belongs here".to_owned(),
+        _ => {}
+    }
+    let Some((given, expected)) = reason.rsplit_once(", expected ") else { return reason.to_owned() };
+    let expected = match expected {
+        "f64" => "a number",
+        "u32" | "u64" | "usize" | "i32" | "i64" => "a whole number",
+        "a sequence" => "a list in brackets",
+        "a map" => "an object in braces",
+        other if other.starts_with("struct ") => "an object in braces",
+        other => other,
+    };
+    format!("{given}, expected {expected}")
 }

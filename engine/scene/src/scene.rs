@@ -181,6 +181,16 @@ impl Scene {
     }
 
     fn from_json_with_places(text: &str) -> Result<Self, SceneError> {
+        // A list would be read as the values of a scene in their order.
+        if !text.trim_start().starts_with('{') {
+            return Err(SceneError::Syntax {
+                path: "scene".to_owned(),
+                pointer: String::new(),
+                line: 1,
+                column: 1,
+                reason: "a scene stands in braces, and this text begins otherwise".to_owned(),
+            });
+        }
         let mut reader = serde_json::Deserializer::from_str(text);
         let scene: Self = serde_path_to_error::deserialize(&mut reader).map_err(|e| syntax_error(&e))?;
         reader.end().map_err(|e| plain_error(&e, "/"))?;

@@ -62,6 +62,16 @@ export const told: Record<string, string> = {
   "unknown field `{field}`, expected one of {known}": "unbekannter Schlüssel `{field}`, möglich sind {known}",
   "unknown field `{field}`, expected {known}": "unbekannter Schlüssel `{field}`, möglich ist {known}",
   "unknown variant `{field}`, expected one of {known}": "unbekanntes Wort `{field}`, möglich sind {known}",
+  "invalid type: {given}, expected a number": "falsche Art von Wert: {given} statt einer Zahl",
+  "invalid type: {given}, expected a whole number": "falsche Art von Wert: {given} statt einer ganzen Zahl",
+  "invalid type: {given}, expected a string":
+    "falsche Art von Wert: {given} statt eines Textes in Anführungszeichen",
+  "invalid type: {given}, expected a list in brackets":
+    "falsche Art von Wert: {given} statt einer Liste in Klammern [ ]",
+  "invalid type: {given}, expected an object in braces":
+    "falsche Art von Wert: {given} statt eines Objekts in Klammern { }",
+  "invalid type: {given}, expected an array of length {wanted}":
+    "falsche Art von Wert: {given} statt einer Liste der Länge {wanted}",
   "invalid type: {given}, expected {wanted}": "falsche Art von Wert: {given} statt {wanted}",
   "invalid length {n}, expected an array of length {wanted}":
     "Länge {n} statt einer Liste der Länge {wanted}",
@@ -69,6 +79,10 @@ export const told: Record<string, string> = {
   "duplicate field `{field}`": "der Schlüssel `{field}` steht zweimal da",
   "`{key}` is missing: write it between the braces that end here":
     "`{key}` fehlt: Schreib es zwischen die Klammern, die hier enden",
+  "another kind of value belongs here": "hierher gehört ein Wert anderer Art",
+  "more values than belong here": "mehr Werte, als hierher gehören",
+  "a scene stands in braces, and this text begins otherwise":
+    "eine Szene steht in geschweiften Klammern, und dieser Text beginnt anders",
   "trailing comma": "ein Komma zu viel am Ende",
   "EOF while parsing a value": "der Text endet, wo ein Wert stehen müsste",
   "the scene's text has {bytes} bytes, more than the {most} that are read":
