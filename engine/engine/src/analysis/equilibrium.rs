@@ -18,6 +18,8 @@ const BALANCED: f64 = 1e-10;
 const ROUNDED: f64 = 1e-14;
 /// Part of what was left before a step that a step which leads on leaves.
 const STALLED: f64 = 0.1;
+/// Stiffness, relative to the largest or to the largest force over the mechanism's length, that neither holds nor drives away.
+const UNDECIDED: f64 = 1e-7;
 /// Stiffness, relative to the largest, below which the search takes none.
 const SOFTEST: f64 = 1e-9;
 /// Change of forces by a motion, relative to the largest, below which it changes none: what differences leave of zero.
@@ -188,7 +190,9 @@ fn found(
 ) -> Result<Equilibrium, AnalysisError> {
     stage.rest();
     let least = stiffnesses.iter().fold(f64::INFINITY, |a, b| a.min(*b));
-    let clear = least.abs() > 1e-7 * stiffnesses.amax();
+    // Where no motion meets any stiffness, that of the forces themselves tells what is none.
+    let stiffest = stiffnesses.amax().max(stage.largest_force() / stage.mechanism.system.length);
+    let clear = least.abs() > UNDECIDED * stiffest;
     let reactions = report(&stage.accelerate().multipliers, Convention::default());
     Ok(Equilibrium {
         iterations,

@@ -24,6 +24,8 @@ const NEGLIGIBLE: f64 = 1e-9;
 const UNBALANCED: f64 = 1e-6;
 /// Stiffness or damping below this part of the largest is none: differences of order four give both to about 1e-13.
 const STIFFLESS: f64 = 1e-11;
+/// Damping of a motion without inertia below this part of the largest is none: it is rounding of what dampers do exactly.
+const UNCREEPING: f64 = 1e-13;
 /// Part of the unit force of a damped load that a drift may feel and yet go on for ever.
 const UNDAMPED: f64 = 1e-9;
 /// Relative difference above which two numbers differ by more than rounding.
@@ -170,8 +172,11 @@ pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Mod
     }
     let small = SmallMotions::new(&mut stage, &basis, unfelt.as_ref());
     let length = stage.mechanism.system.length;
-    let mut modes: Vec<Mode> =
-        small.eigen()?.iter().map(|eigen| mode(eigen.value, &small.moved(&eigen.vector), length)).collect();
+    let mut modes: Vec<Mode> = small
+        .eigen(&stage)?
+        .iter()
+        .map(|eigen| mode(eigen.value, &small.moved(&eigen.vector), length))
+        .collect();
     let translations = unfelt.map_or_else(|| DMatrix::zeros(basis.nrows(), 0), |unfelt| unfelt.translations);
     modes.extend(
         columns([&small.drifts(), &translations])
@@ -192,22 +197,48 @@ struct SmallMotions {
     pencil: Pencil,
     /// Twists that have neither inertia nor stiffness nor damping.
     left_out: DMatrix<f64>,
+    /// Stiffness of a motion of length one below which it is what differences leave of zero, N/m.
+    stiffless: f64,
+}
+
+/// What is none of the stiffness (N/m) and of the damping (N s/m) of motions of length one.
+struct Limits {
+    stiffness: f64,
+    damping: f64,
+}
+
+impl Limits {
+    /// Of motions without inertia: parts of the largest along all motions, since rounding would be something beside itself.
+    fn of_massless(stage: &mut Stage, basis: &DMatrix<f64>, multipliers: &[f64]) -> Self {
+        let stiffness = stage.stiffness(basis, multipliers);
+        stage.rest();
+        Self { stiffness: stiffless(stage, &stiffness), damping: UNCREEPING * largest(&stage.damping(basis)) }
+    }
+}
+
+/// What is none of a stiffness of motions of length one, N/m.
+fn stiffless(stage: &Stage, stiffness: &DMatrix<f64>) -> f64 {
+    let length = stage.mechanism.system.length;
+    // Smaller steps leave more of the rounding of forces.
+    STIFFLESS * length / stage.fineness() * largest(stiffness).max(stage.largest_force() / length)
 }
 
 impl SmallMotions {
     fn new(stage: &mut Stage, basis: &DMatrix<f64>, unfelt: Option<&Unfelt>) -> Self {
         let multipliers = stage.accelerate().multipliers.solver_rows().to_vec();
         stage.rest();
-        let force = stage.forces().amax() / stage.mechanism.system.length;
         let Inertia { inertial, massless } = Inertia::new(stage, basis);
-        let orthonormal = |k: &DMatrix<f64>| k.amax().max(force).max(f64::MIN_POSITIVE);
+        let limits = if massless.is_empty() {
+            Limits { stiffness: 0.0, damping: 0.0 }
+        } else {
+            Limits::of_massless(stage, basis, &multipliers)
+        };
         // Which motions without inertia are damped, which only held, and which neither.
-        let damping = stage.damping(&massless);
-        let (undamped, creeping) = null_and_rest(&damping, STIFFLESS * orthonormal(&damping));
+        let (undamped, creeping) = null_and_rest(&stage.damping(&massless), limits.damping);
         let (undamped, creeping) = (&massless * undamped, &massless * creeping);
         let own = stage.stiffness(&undamped, &multipliers);
         stage.rest();
-        let (free, held) = null_and_rest(&own, STIFFLESS * orthonormal(&own));
+        let (free, held) = null_and_rest(&own, limits.stiffness);
         let (left_out, held) = (&undamped * free, &undamped * held);
         let moving = columns([&inertial, &creeping]);
         // What is held without inertia follows the others at once: K_hh x_h = −K_h· x.
@@ -235,7 +266,8 @@ impl SmallMotions {
                 scaled[(i, j)] /= size_i * size_j;
             }
         }
-        let (mut drifts, _) = null_and_rest(&scaled, STIFFLESS * orthonormal(&scaled));
+        let stiffless = stiffless(stage, &scaled);
+        let (mut drifts, _) = null_and_rest(&scaled, stiffless);
         for (i, size) in sizes.iter().enumerate() {
             drifts.row_mut(i).unscale_mut(*size);
         }
@@ -244,14 +276,35 @@ impl SmallMotions {
         let (dampers, gyroscopic) = (stage.dampers(&motions), stage.gyroscopic(&motions));
         let inertial = inertial.ncols();
         let pencil = Pencil { inertial, stiffness, damping, dampers, gyroscopic, drifts, undamped };
-        Self { motions, pencil, left_out }
+        Self { motions, pencil, left_out, stiffless }
     }
 
-    fn eigen(&self) -> Result<Vec<Eigen>, AnalysisError> {
+    fn eigen(&self, stage: &Stage) -> Result<Vec<Eigen>, AnalysisError> {
         let Pencil { stiffness: k, damping: c, .. } = &self.pencil;
         let scale = k.amax().max(f64::MIN_POSITIVE);
-        let plain = c.amax() <= NEGLIGIBLE * scale.sqrt() && (k - k.transpose()).amax() <= NEGLIGIBLE * scale;
-        if plain { Ok(self.pencil.undamped()) } else { self.pencil.damped().ok_or(AnalysisError::NoModes) }
+        let undamped = c.amax() <= NEGLIGIBLE * scale.sqrt();
+        if undamped && (k - k.transpose()).amax() <= NEGLIGIBLE * scale {
+            return Ok(self.pencil.undamped());
+        }
+        let mut found = self.pencil.damped().ok_or(AnalysisError::NoModes)?;
+        if undamped {
+            self.without_rounding(stage, &mut found);
+        }
+        Ok(found)
+    }
+
+    /// Where nothing damps and K is not symmetric, a motion may push another one and meet no stiffness itself: λ² is then what
+    /// differences leave of zero, and λ, its root, far more. It is a drift, told once and not as a pair that grows and decays.
+    fn without_rounding(&self, stage: &Stage, found: &mut Vec<Eigen>) {
+        let none = |eigen: &Eigen| {
+            let part = |of: fn(&Complex<f64>) -> f64| size(stage, &self.moved(&eigen.vector).map(|x| of(&x)));
+            let size = libm::hypot(part(|x| x.re), part(|x| x.im));
+            eigen.value.norm_sqr() * eigen.vector.norm_squared() <= self.stiffless * size * size
+        };
+        found.retain(|eigen| eigen.value.re >= 0.0 || eigen.value.im != 0.0 || !none(eigen));
+        for eigen in found.iter_mut().filter(|eigen| none(eigen)) {
+            eigen.value = Complex::new(0.0, 0.0);
+        }
     }
 
     /// Twists of a solution.
@@ -273,8 +326,7 @@ fn undamped_drifts(stage: &Stage, motions: &DMatrix<f64>, drifts: &DMatrix<f64>)
     for (mut column, size) in drifting.column_iter_mut().zip(&sizes) {
         column.unscale_mut(*size);
     }
-    let length = stage.mechanism.system.length.min(1.0);
-    let (mut free, _) = null_and_rest(&stage.resistance(&drifting), UNDAMPED * length);
+    let (mut free, _) = null_and_rest(&stage.resistance(&drifting), UNDAMPED);
     for (mut row, size) in free.row_iter_mut().zip(&sizes) {
         row.unscale_mut(*size);
     }
@@ -289,6 +341,11 @@ fn size(stage: &Stage, motion: &DVector<f64>) -> f64 {
         arc * arc
     };
     (0..motion.len()).map(square).sum::<f64>().sqrt().max(f64::MIN_POSITIVE)
+}
+
+/// The largest entry, more than zero.
+fn largest(matrix: &DMatrix<f64>) -> f64 {
+    matrix.iter().fold(f64::MIN_POSITIVE, |a, x| a.max(x.abs()))
 }
 
 /// Matrices beside each other.

@@ -17,10 +17,13 @@ use triad_dynamics::model::Model;
 use triad_dynamics::newton::{project_positions, rules};
 use triad_dynamics::state::{AppliedForces, BodyFrame, State};
 use triad_dynamics::system::index::IncidenceId;
+use triad_dynamics::system::load::SystemLoad;
 use triad_dynamics::system::natural::NaturalCoordinates;
 
-/// Step of differences in lengths of the mechanism: of order four, they are then right to about 1e-13.
+/// Step of differences, in lengths of what they differ: of order four, they are then right to about 1e-13.
 const STEP: f64 = 1e-3;
+/// Part of the mechanism's length below which a spring has no length.
+const NO_LENGTH: f64 = 1e-6;
 
 /// A mechanism held at one position.
 #[derive(Clone, Debug)]
@@ -185,6 +188,13 @@ impl Stage {
         out
     }
 
+    /// The largest of them on a body, N, moments over the mechanism's length.
+    pub fn largest_force(&self) -> f64 {
+        let length = self.mechanism.system.length;
+        let along = |(k, x): (usize, &f64)| if k % 6 >= 3 { x.abs() / length } else { x.abs() };
+        self.forces().iter().enumerate().map(along).fold(0.0, f64::max)
+    }
+
     /// Calls `take` with the force and moment of inertia on each body, whose velocities in the frame of the steady motion are
     /// given; at rest there are none.
     fn for_inertial(
@@ -279,6 +289,18 @@ impl Stage {
         out
     }
 
+    /// The length that differences take small parts of, m: the mechanism's, or twice that of the shortest spring whose pull is no
+    /// polynomial in the positions.
+    pub fn fineness(&self) -> f64 {
+        let Mechanism { system, state, .. } = &self.mechanism;
+        let bends = system.loads.iter().filter(|load| match load {
+            SystemLoad::Spring { law, .. } => law.drive.is_some() || law.stiffness * law.free != 0.0,
+            _ => false,
+        });
+        let lengths = bends.filter_map(|spring| spring.acting(state)).map(|[length, ..]| 2.0 * length);
+        lengths.filter(|length| *length > NO_LENGTH * system.length).fold(system.length, f64::min)
+    }
+
     /// Change of something by a small motion, a twist of each body of any length; the stage is left beside its position.
     pub fn slope(
         &mut self,
@@ -290,7 +312,7 @@ impl Stage {
         let reach = (0..direction.len()).fold(0.0f64, |a, i| {
             a.max(if i % 6 >= 3 { length * direction[i].abs() } else { direction[i].abs() })
         });
-        let step = STEP * length / reach.max(f64::MIN_POSITIVE);
+        let step = STEP * self.fineness() / reach.max(f64::MIN_POSITIVE);
         let mut at = |size: f64| {
             let q = self.moved(direction, size);
             self.place(&q);

@@ -18,6 +18,7 @@ mod modes;
 mod outputs;
 mod parameters;
 mod pure;
+mod scales;
 mod scene_words;
 mod small_motions;
 mod snapshots;

@@ -23,12 +23,18 @@ impl Stage {
         out
     }
 
-    /// What resists motions along a basis at any speed, as rows: of each damped load its unit force, of length one, and the
+    /// What resists motions along a basis at any speed, as rows: of each damped load its unit force, of length one where moments are
+    /// taken over the mechanism's length, and the
     /// gyroscopic matrix relative to the largest sum of what bodies contribute to an entry, since they cancel where nothing
     /// resists. What none of them feels goes on for ever, however strong the others are.
     pub fn resistance(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
         let mut rows: Vec<RowDVector<f64>> = Vec::new();
-        self.for_damped(|_, unit| rows.push(basis.tr_mul(&(unit / unit.norm())).transpose()));
+        let length = self.mechanism.system.length;
+        let part = |(k, x): (usize, &f64)| if k % 6 >= 3 { x / length } else { *x };
+        self.for_damped(|_, unit| {
+            let size = unit.iter().enumerate().map(part).fold(0.0, libm::hypot);
+            rows.push((basis.tr_mul(unit) / size).transpose());
+        });
         let wrenches = self.gyroscopic_wrenches(basis);
         let largest = lengths(basis).tr_mul(&lengths(&wrenches)).amax();
         if largest > 0.0 {
