@@ -4220,6 +4220,11 @@ export interface components {
          */
         Skip: {
             /**
+             * @description Products of series in rows that keep a vector along an axis, which are solved as those of a common vector (integrator `taylor`).
+             * @default true
+             */
+            axes?: boolean;
+            /**
              * @description Measuring the constraints after a step whose projection has just shown that they hold (integrator `taylor`).
              * @default true
              */
