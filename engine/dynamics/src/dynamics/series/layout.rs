@@ -68,15 +68,20 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 }
 
-/// The features that rows, angles and loads are made of, and those that move as prescribed.
-fn used(system: &System) -> Vec<bool> {
-    let mut used: Vec<bool> = system.features.iter().map(|feature| feature.curve.is_some()).collect();
-    let of_rows = system.rows.iter().flat_map(|row| row.form.features(&system.angles));
-    let of_angles = system.angles.iter().flat_map(|angle| angle.features().into_iter().chain([angle.axis]));
-    let of_loads = system.loads.iter().flat_map(SystemLoad::features);
-    for feature in of_rows.chain(of_angles).chain(of_loads) {
-        used[feature.index()] = true;
+/// The features that rows, loads and angles are made of, and those that move as prescribed. Those that only angles use are the last:
+/// angles that somebody wants to see change no order of sums.
+fn used(system: &System) -> Vec<usize> {
+    let mut rank: Vec<usize> =
+        system.features.iter().map(|feature| if feature.curve.is_some() { 0 } else { 2 }).collect();
+    for feature in system.angles.iter().flat_map(|angle| angle.features().into_iter().chain([angle.axis])) {
+        rank[feature.index()] = rank[feature.index()].min(1);
     }
+    let of_rows = system.rows.iter().flat_map(|row| row.form.features(&system.angles));
+    for feature in of_rows.chain(system.loads.iter().flat_map(SystemLoad::features)) {
+        rank[feature.index()] = 0;
+    }
+    let mut used: Vec<usize> = (0..rank.len()).filter(|&feature| rank[feature] < 2).collect();
+    used.sort_by_key(|&feature| rank[feature]);
     used
 }
 
@@ -86,9 +91,8 @@ pub(super) fn bundles<const L: usize, B: Bodies<L>>(
 ) -> (Vec<B>, Vec<FeatureSlot<L>>, Vec<LanePlace>) {
     let mut place = vec![LanePlace { slot: 0, lane: 0 }; system.features.len()];
     let mut of_body: Vec<Vec<usize>> = vec![Vec::new(); system.bodies.len()];
-    let used = used(system);
-    for (index, feature) in system.features.iter().enumerate().filter(|&(index, _)| used[index]) {
-        if let BodyRef::Moving(body) = feature.body {
+    for index in used(system) {
+        if let BodyRef::Moving(body) = system.features[index].body {
             of_body[body].push(index);
         }
     }

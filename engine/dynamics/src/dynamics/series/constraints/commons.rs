@@ -1,7 +1,6 @@
 //! Common vectors bundle by bundle, like the points of joints: what they say of the two rows across them goes straight into the
 //! right-hand side, and multipliers come straight back, four bodies at a time.
 
-use super::rows::CommonVector;
 use super::vectors::index;
 use crate::dynamics::series::bodies::{Bodies, FeatureSlot, LanePlace};
 use crate::dynamics::series::lanes::{LaneVector, plus_whole, times_whole};
@@ -12,6 +11,23 @@ use crate::system::row::Form;
 use pulp::Simd;
 use std::ops::Range;
 use triad_linalg::BlockCholesky;
+
+/// a − b = 0 for unit vectors, kept across the vector's direction at the point of expansion.
+#[derive(Clone, Copy, Debug)]
+pub struct CommonVector {
+    pub a: LanePlace,
+    pub b: LanePlace,
+    /// Where the first of its two rows stands in the factor.
+    pub row: usize,
+    /// The first of the two rows among the system's solver rows.
+    pub solver: usize,
+    /// Whether [`super::JointPoints`] does not see to it, as something in it moves as prescribed.
+    pub driven: bool,
+    /// The two directions where S was factored last.
+    pub across: [[f64; 3]; 2],
+    /// The two directions that the series at hand are written in.
+    pub expanded: [[f64; 3]; 2],
+}
 
 /// A vector of each of L bodies (or of none), with the sign that it has in its row.
 #[derive(Clone, Debug)]

@@ -1,8 +1,7 @@
 //! The points of joints bundle by bundle: what they say of the rows that hold two of them together goes straight into the
 //! right-hand side, and multipliers come straight back as forces, four numbers at a time.
 
-use super::commons::{JointAxes, holds_vectors};
-use super::rows::CommonVector;
+use super::commons::{CommonVector, JointAxes, holds_vectors};
 use super::vectors::{JointVectors, held_products, index};
 use crate::dynamics::series::bodies::{Bodies, FeatureSlot, LanePlace};
 use crate::model::BodyRef;

@@ -1,6 +1,6 @@
 //! The rows of joints on series: what they demand of the next coefficients and the forces that their multipliers make.
 
-use super::commons::holds_vectors;
+use super::commons::{CommonVector, holds_vectors};
 use super::points::{NOWHERE, holds_points};
 use super::vectors::{held_products, index};
 use crate::dynamics::series::bodies::LanePlace;
@@ -19,22 +19,6 @@ pub struct Coincidence {
     a: LanePlace,
     b: LanePlace,
     row: usize,
-}
-
-/// a − b = 0 for unit vectors, kept across the vector's direction at the point of expansion.
-#[derive(Clone, Copy, Debug)]
-pub struct CommonVector {
-    a: LanePlace,
-    b: LanePlace,
-    row: usize,
-    /// The first of the two rows among the system's solver rows.
-    pub solver: usize,
-    /// Whether [`super::JointPoints`] does not see to it, as something in it moves as prescribed.
-    driven: bool,
-    /// The two directions where S was factored last.
-    pub across: [[f64; 3]; 2],
-    /// The two directions that the series at hand are written in.
-    pub expanded: [[f64; 3]; 2],
 }
 
 /// L rows x · y − c = 0.
