@@ -11,7 +11,7 @@ use triad_dynamics::dynamics::series::{IslandSeries, MIN_TOLERANCE_REDUNDANT, St
 use triad_dynamics::model::BodyRef;
 use triad_dynamics::state::State;
 use triad_dynamics::system::System;
-use triad_dynamics::system::common_axes::{self, Origin, WithCommonAxes};
+use triad_dynamics::system::common_axes::{Origin, WithCommonAxes, origins};
 use triad_dynamics::system::islands::{self, Island};
 use triad_dynamics::system::pivots::about_pivots;
 use triad_dynamics::system::planar::{self, Plane};
@@ -88,12 +88,11 @@ impl IslandStepper {
         let q = &y[..whole.coordinates];
         let (reduced, in_plane) = reduced(system, q, skip);
         let solved = reduced.as_ref().unwrap_or(system);
-        let with_axes = if skip.axes && !in_plane { WithCommonAxes::new(solved, q) } else { None };
-        let expanded = with_axes.as_ref().map_or(solved, |with_axes| &with_axes.system);
+        let (commons, with_axes) = common_axes(solved, q, skip.axes && !in_plane);
+        let expanded = with_axes.as_ref().unwrap_or(solved);
         let order = order_for(tolerance, in_plane);
         let most = if system.bodies.len() > FEW_BODIES { order } else { MAX_ORDER };
-        let rows = solved.solver_rows;
-        let loops = islands::has_loops(&system.model);
+        let (rows, loops) = (solved.solver_rows, islands::has_loops(&system.model));
         let series_of = |measured: &System, order: usize| {
             if in_plane {
                 IslandSeries::in_plane(measured, order, turns)
@@ -122,7 +121,6 @@ impl IslandStepper {
         series.linearize();
         let tolerance = if redundant { tolerance.max(MIN_TOLERANCE_REDUNDANT) } else { tolerance };
         let (length, bodies, pivots) = (system.length, system.bodies.len(), rowless(solved));
-        let commons = with_axes.map_or_else(|| common_axes::origins(solved), |with_axes| with_axes.origins);
         Self {
             loops,
             own: reduced.or(own).map(Box::new),
@@ -358,6 +356,14 @@ impl Track for IslandStepper {
         for (pivot, others) in &self.pivots {
             shares[*pivot] = others.iter().map(|other| shares[*other]).fold(shares[*pivot], f64::max);
         }
+    }
+}
+
+/// What the common vectors are that series have, and the system with axes among them, if it differs.
+fn common_axes(system: &System, q: &[f64], wanted: bool) -> (Vec<Origin>, Option<System>) {
+    match if wanted { WithCommonAxes::new(system, q) } else { None } {
+        Some(WithCommonAxes { system, origins }) => (origins, Some(system)),
+        None => (origins(system), None),
     }
 }
 
