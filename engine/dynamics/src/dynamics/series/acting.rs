@@ -40,8 +40,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     /// Multipliers of the solver rows a time τ after the point of the last expansion, from the series up to order `order` of
-    /// Q; `across` tells the directions there that those of each common vector are written in. Not where rows are redundant: which of all multipliers that fit are smallest
-    /// changes within a step.
+    /// Q; `across` tells the directions there that those of each common vector are written in. Not where rows are redundant: which of
+    /// all multipliers that fit are smallest changes within a step.
     pub fn multipliers(
         &self,
         tau: f64,

@@ -1,7 +1,7 @@
 //! Common vectors bundle by bundle, like the points of joints: what they say of the two rows across them goes straight into the
 //! right-hand side, and multipliers come straight back, four bodies at a time.
 
-use super::vectors::index;
+use super::vectors::{index, is_held};
 use crate::dynamics::series::bodies::{Bodies, FeatureSlot, LanePlace};
 use crate::dynamics::series::lanes::{LaneVector, plus_whole, times_whole};
 use crate::model::BodyRef;
@@ -48,12 +48,6 @@ pub struct JointAxes<const L: usize> {
     of_bundle: Vec<Range<usize>>,
 }
 
-/// Whether a row holds two vectors together that no driver moves.
-pub fn holds_vectors(system: &System, form: &Form) -> bool {
-    let fixed = |f: FeatureId| system[f].curve.is_none();
-    matches!(form, Form::CommonVector { a, b } if fixed(*a) && fixed(*b))
-}
-
 impl<const L: usize> JointAxes<L> {
     /// Of a system, if it has some; `place` tells where features stand, and `factor` where solver rows do.
     pub fn new<B: Bodies<L>>(
@@ -65,7 +59,7 @@ impl<const L: usize> JointAxes<L> {
     ) -> Option<Self> {
         let mut ends: Vec<Vec<(FeatureId, f64, usize, usize)>> = vec![Vec::new(); system.bodies.len()];
         let commons = system.rows.iter().filter(|row| matches!(row.form, Form::CommonVector { .. }));
-        for (k, row) in commons.enumerate().filter(|(_, row)| holds_vectors(system, &row.form)) {
+        for (k, row) in commons.enumerate().filter(|(_, row)| is_held(system, &row.form)) {
             let features = row.form.features(&system.angles);
             for (feature, sign) in features.into_iter().zip([1.0, -1.0]) {
                 if let BodyRef::Moving(body) = system[feature].body {

@@ -1,8 +1,8 @@
 //! The points of joints bundle by bundle: what they say of the rows that hold two of them together goes straight into the
 //! right-hand side, and multipliers come straight back as forces, four numbers at a time.
 
-use super::commons::{CommonVector, JointAxes, holds_vectors};
-use super::vectors::{JointVectors, held_products, index};
+use super::commons::{CommonVector, JointAxes};
+use super::vectors::{JointVectors, held_products, index, is_held};
 use crate::dynamics::series::bodies::{Bodies, FeatureSlot, LanePlace};
 use crate::model::BodyRef;
 use crate::system::System;
@@ -78,8 +78,7 @@ fn convolved(system: &System) -> Vec<FeatureId> {
 
 /// Whether a row holds two points together that no driver moves.
 pub fn holds_points(system: &System, form: &Form) -> bool {
-    let fixed = |f: FeatureId| system[f].curve.is_none();
-    matches!(form, Form::Coincidence { a, b } if fixed(*a) && fixed(*b))
+    matches!(form, Form::Coincidence { .. }) && is_held(system, form)
 }
 
 impl<const L: usize> JointPoints<L> {
@@ -103,7 +102,7 @@ impl<const L: usize> JointPoints<L> {
             if matches!(row.form, Form::Product { .. }) && held.next() == Some(true) {
                 continue;
             }
-            if holds_vectors(system, &row.form) {
+            if matches!(row.form, Form::CommonVector { .. }) && is_held(system, &row.form) {
                 continue;
             }
             for (k, feature) in row.form.features(&system.angles).into_iter().enumerate() {

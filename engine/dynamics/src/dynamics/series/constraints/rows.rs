@@ -1,8 +1,8 @@
 //! The rows of joints on series: what they demand of the next coefficients and the forces that their multipliers make.
 
-use super::commons::{CommonVector, holds_vectors};
+use super::commons::CommonVector;
 use super::points::{NOWHERE, holds_points};
-use super::vectors::{held_products, index};
+use super::vectors::{held_products, index, is_held};
 use crate::dynamics::series::bodies::LanePlace;
 use crate::dynamics::series::lanes::{Lane, LaneVector, add_dot, add_scaled, dot, plus, scaled, sum};
 use crate::dynamics::series::recurrence::for_folded;
@@ -88,7 +88,7 @@ impl<const L: usize> Rows<L> {
                 Form::CommonVector { a, b } => {
                     let (a, b) = (at(a), at(b));
                     let (across, expanded) = ([[0.0; 3]; 2], [[0.0; 3]; 2]);
-                    let (solver, driven) = (form.solver, !holds_vectors(system, &form.form));
+                    let (solver, driven) = (form.solver, !is_held(system, &form.form));
                     rows.commons.push(CommonVector { a, b, row, solver, driven, across, expanded });
                 }
                 Form::Product { a, b, target } => {

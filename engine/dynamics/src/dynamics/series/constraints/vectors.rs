@@ -4,8 +4,8 @@
 use crate::dynamics::series::bodies::{Bodies, FeatureSlot, LanePlace};
 use crate::dynamics::series::lanes::{LaneVector, plus_whole, times_whole};
 use crate::model::BodyRef;
+use crate::system::System;
 use crate::system::row::Form;
-use crate::system::{Row, System};
 use pulp::Simd;
 use std::ops::Range;
 use triad_linalg::BlockCholesky;
@@ -38,12 +38,16 @@ pub struct JointVectors<const L: usize> {
     of_bundle: Vec<Range<usize>>,
 }
 
+/// Whether nothing in a row is moved by a driver.
+pub fn is_held(system: &System, form: &Form) -> bool {
+    form.features(&system.angles).into_iter().all(|feature| system[feature].curve.is_none())
+}
+
 /// For each product in order, whether nothing in its bundle of L rows is moved by a driver.
 pub fn held_products(system: &System, lanes: usize) -> Vec<bool> {
     let products = system.rows.iter().filter(|row| matches!(row.form, Form::Product { .. }));
-    let moves = |row: &Row| row.form.features(&system.angles).into_iter().any(|f| system[f].curve.is_some());
-    let moved: Vec<bool> = products.map(moves).collect();
-    moved.chunks(lanes).flat_map(|bundle| vec![!bundle.contains(&true); bundle.len()]).collect()
+    let held: Vec<bool> = products.map(|row| is_held(system, &row.form)).collect();
+    held.chunks(lanes).flat_map(|bundle| vec![!bundle.contains(&false); bundle.len()]).collect()
 }
 
 /// Where the first number of a side of a product stands among the numbers of [`super::Rows`], which keep L products of `stride`
