@@ -104,9 +104,11 @@ async function plots() {
   const ways = await phase.locator("path[fill=none]:not(.join)").count();
   assert.equal(ways, 3, "three quantities over their own");
   const before = await clock();
-  // Below what stays in sight.
-  await phase.evaluate((picture) => picture.scrollIntoView({ block: "start" }));
-  const box = await phase.boundingBox();
+  // Below what stays in sight; the page may still be growing by it, and then stays where it was.
+  const box = await until("the phase plot is in sight", async () => {
+    await phase.evaluate((picture) => picture.scrollIntoView({ block: "start" }));
+    return phase.boundingBox();
+  }, ({ y, height }) => y + height / 2 < 880);
   await page.mouse.click(box.x + box.width / 4, box.y + box.height / 2);
   await until("a click moves the clock", clock, (time) => time !== before);
   await noFaults("a phase plot");
