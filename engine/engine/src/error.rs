@@ -257,9 +257,9 @@ impl EngineError {
             Self::Scene(SceneError::TooLong { .. } | SceneError::TooMany { .. }) => {
                 "Split the mechanism, or leave out what does not move.".to_owned()
             }
-            Self::Scene(SceneError::Syntax { .. }) => {
+            Self::Scene(error @ SceneError::Syntax { .. }) => error.meant().unwrap_or_else(|| {
                 "Compare the place with the JSON Schema of a scene (`triad schema`).".to_owned()
-            }
+            }),
             Self::Scene(SceneError::NoNumber { .. }) => {
                 "Name a place that holds a number, by keys and places in lists from 0, like /bodies/0/mass.".to_owned()
             }

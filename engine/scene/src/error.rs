@@ -1,6 +1,10 @@
 //! Why a text is not a scene.
 
 use crate::limits::MAX_TEXT;
+use crate::settings::Settings;
+use crate::text::nearest_name;
+use serde::Deserialize;
+use serde_json::json;
 
 /// Why a text is not a scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -63,6 +67,26 @@ pub enum SceneError {
         /// Its greatest value.
         high: f64,
     },
+}
+
+impl SceneError {
+    /// What was meant by a key that is none, if that can be told.
+    pub fn meant(&self) -> Option<String> {
+        let Self::Syntax { pointer, reason, .. } = self else { return None };
+        let (key, known) = reason.strip_prefix("unknown field `")?.split_once("`, expected ")?;
+        if pointer.strip_prefix('/') == Some(key) && is_setting(key) {
+            return Some(format!("\"{key}\" is one of the settings: write it within \"simulation\"."));
+        }
+        // Names stand between backticks.
+        let nearest = nearest_name(key, known.split('`').skip(1).step_by(2))?;
+        Some(format!("Did you mean \"{nearest}\"?"))
+    }
+}
+
+/// Whether the settings know a key.
+fn is_setting(key: &str) -> bool {
+    let alone = json!({ key: null });
+    Settings::deserialize(&alone).err().is_none_or(|error| !error.to_string().starts_with("unknown field"))
 }
 
 /// The error of a reader that knows the path of keys.

@@ -126,7 +126,11 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} [{}]", self.detail, self.code)?;
         for fault in &self.errors {
-            write!(f, "\n  at {}: {}", fault.pointer.trim_start_matches('#'), fault.detail)?;
+            write!(f, "\n  at {}", fault.pointer.trim_start_matches('#'))?;
+            // Where there is nothing more to say about the place, the sentence has said it.
+            if fault.detail != self.detail {
+                write!(f, ": {}", fault.detail)?;
+            }
         }
         if !self.hint.is_empty() {
             write!(f, "\n  try: {}", self.hint)?;

@@ -152,6 +152,8 @@ export const told: Record<string, string> = {
 
   // What helps.
   'Did you mean "{name}"?': "Meintest du „{name}“?",
+  '"{key}" is one of the settings: write it within "simulation".':
+    "„{key}“ ist eine der Einstellungen: Es gehört in „simulation“.",
   "Compare the place with the JSON Schema of a scene (`triad schema`).":
     "Vergleiche die Stelle mit dem JSON-Schema einer Szene (`triad schema`).",
   "Add at least one body with a name and a mass.": "Schreib wenigstens einen Körper mit Namen und Masse.",
