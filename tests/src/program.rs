@@ -33,7 +33,7 @@ pub fn triad() -> &'static Path {
             "lessons/box/src",
             "lessons/course",
             "server/src",
-            "server/build.rs",
+            "server/build",
             "web/src",
         ];
         let changed = sources.iter().filter_map(|source| newest(&root().join(source))).max();

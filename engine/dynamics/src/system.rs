@@ -53,6 +53,12 @@ use std::collections::HashMap;
 use std::ops::{Index, Range};
 use std::sync::Arc;
 
+/// Longest arm, in radii of gyration, below which a mechanism has none: what rounding leaves of a hub in the centre of mass is no
+/// length of a wheel.
+const NO_ARM: f64 = 1e-3;
+/// Distance of points, in their largest coordinate, that is none.
+const ROUNDED: f64 = 1e-12;
+
 /// The rows of one joint or driver.
 #[derive(Clone, Debug)]
 pub struct Constraint {
@@ -156,7 +162,7 @@ pub struct System {
     pub solver_rows: usize,
     /// Numbers in all incidence blocks.
     pub block_entries: usize,
-    /// A length of the mechanism, m: the largest local coordinate of a joint's point, or 1.
+    /// A length of the mechanism, m: the longest arm of a joint or load, or what stands for it — THEORY section 8.
     pub length: f64,
 }
 
@@ -216,14 +222,32 @@ impl System {
         system
     }
 
+    /// The longest arm; of a mechanism without arms, or with such as rounding leaves, the largest radius of gyration or, if that is
+    /// less, distance between points of joints and loads at the start.
     fn characteristic_length(&self) -> f64 {
-        let largest = self
-            .features
-            .iter()
-            .filter(|f| f.point && f.body != BodyRef::Ground)
-            .map(|f| f.local.norm())
-            .fold(0.0, f64::max);
+        let arm = self.arms().into_iter().fold(0.0, f64::max);
+        let radius = |body: &ModelBody| (body.principal.max() / body.mass).sqrt();
+        let radius = self.model.bodies.iter().map(radius).fold(0.0, f64::max);
+        if arm > 0.0 && arm >= NO_ARM * radius {
+            return arm;
+        }
+        let points: Vec<_> = self.features.iter().filter(|f| f.point).map(|f| self.at_start(f)).collect();
+        let apart = |p: &Vector3<f64>| points.first().map_or(0.0, |first| (p - first).norm());
+        let (apart, far) = points.iter().fold((0.0f64, 0.0f64), |most, p| (most.0.max(apart(p)), most.1.max(p.amax())));
+        let spread = if apart > ROUNDED * far { apart } else { 0.0 };
+        let largest = radius.max(spread);
         if largest > 0.0 { largest } else { 1.0 }
+    }
+
+    /// Where a point is at the start, m; of one that moves as prescribed, where its curve has its zero.
+    fn at_start(&self, point: &Feature) -> Vector3<f64> {
+        match point.body {
+            BodyRef::Ground => point.local,
+            BodyRef::Moving(body) => {
+                let body = &self.model.bodies[body];
+                body.position + body.directors * point.local
+            }
+        }
     }
 
     /// Largest distance of a point of each body's joints and loads from its centre of mass, m.

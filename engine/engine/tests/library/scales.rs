@@ -4,7 +4,8 @@
 
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
-use triad_engine::analysis::{Modes, ModesAbout, equilibrium, modes};
+use triad_engine::analysis::{Modes, ModesAbout, check, equilibrium, modes};
+use triad_engine::prelude::Simulation;
 use triad_engine::catalogue;
 use triad_engine::scene::Scene;
 
@@ -136,4 +137,69 @@ fn what_drifts_in_a_small_mechanism_is_told_once() {
 fn what_meets_no_stiffness_at_a_start_drifts() {
     let found = modes(&catalogue::scene("spatial-double-pendulum").unwrap(), ModesAbout::Start).unwrap();
     assert_eq!(kinds(&found), ["drifts"; 6], "{:?}", found.modes);
+}
+
+/// A wheel about its centre has no arms, whatever rounding leaves of the place of its hub: small beside a radius of gyration is no length.
+#[test]
+fn a_hub_is_no_length_of_a_wheel() {
+    let wheel = |x: f64| {
+        scene(&json!({
+            "name": "wheel", "gravity": [0, 0, -9.81], "simulation": { "duration": 2 },
+            "bodies": [{ "name": "wheel", "mass": 2, "inertia": { "principal": [0.02, 0.03, 0.04] }, "position": [x, 0.1, 0],
+                "angular_velocity": [0, 0, 3] }],
+            "joints": [{ "name": "hub", "type": "revolute", "body_i": "ground", "body_j": "wheel", "point": [0.3, 0.1, 0], "axis": [0, 0, 1] }],
+            "loads": [{ "name": "spring", "type": "torsion", "joint": "hub", "stiffness": 1 }]
+        }))
+    };
+    for x in [0.3, 0.1 + 0.2] {
+        let mut run = Simulation::new(&wheel(x)).unwrap();
+        let radius = (0.04_f64 / 2.0).sqrt();
+        assert!((run.system().length / radius - 1.0).abs() < 1e-12, "{} m", run.system().length);
+        run.advance_to(2.0).unwrap();
+        let summary = run.summary();
+        assert!(summary.doubts.is_empty(), "{:?}", summary.doubts);
+        let found = modes(&wheel(x), ModesAbout::Equilibrium).unwrap();
+        near(&oscillating(&found), &[5.0], 1e-9);
+    }
+}
+
+/// Points have neither arms nor inertia: what they are tied to is as long as their mechanism.
+#[test]
+fn points_on_springs_doubt_errors_of_their_own_size() {
+    for length in [1.0, 1e-3] {
+        // x'' = −ω² x with ω = 10 rad/s, whatever the unit of length.
+        let oscillator = json!({
+            "name": "oscillator", "gravity": [0, 0, 0], "simulation": { "duration": 5, "tolerance": 1e-4, "integrator": "dopri5" },
+            "bodies": [{ "name": "m", "mass": 1, "position": [0.5 * length, 0, 0] }],
+            "loads": [{ "name": "s", "type": "spring", "body_i": "ground", "point_i": [-length, 0, 0], "body_j": "m",
+                "point_j": [0, 0, 0], "stiffness": 100, "free_length": length }]
+        });
+        let mut run = Simulation::new(&scene(&oscillator)).unwrap();
+        assert!((run.system().length / (1.5 * length) - 1.0).abs() < 1e-12, "{} m", run.system().length);
+        run.advance_to(5.0).unwrap();
+        let summary = run.summary();
+        let off = summary.error.is_none_or(|error| error.position > 0.01 * run.system().length);
+        assert_eq!(off, !summary.doubts.is_empty(), "{length} m: {:?}, {:?}", summary.error, summary.doubts);
+        assert_eq!(off, length == 1e-3, "a tenth of a millimetre is much of one: {:?}", summary.error);
+    }
+}
+
+/// How far a start may be off is a part of the mechanism, not of a metre: a rod that is found a length and a half beside its hinge was
+/// meant to stand elsewhere.
+#[test]
+fn a_start_that_is_far_off_is_refused_in_any_unit() {
+    for length in [1.0, 1e-3, 1e3] {
+        let rod = |off: f64| {
+            scene(&json!({
+                "name": "rod", "gravity": [0, 0, -9.81 * length],
+                "bodies": [{ "name": "rod", "mass": 1, "inertia": { "principal": ([0.01, 0.09, 0.09].map(|j| j * length * length)) },
+                    "position": [(0.5 + off) * length, 0, 0] }],
+                "joints": [{ "name": "hinge", "type": "revolute", "body_i": "ground", "body_j": "rod", "point_i": [0, 0, 0],
+                    "point_j": [-0.5 * length, 0, 0], "axis": [0, 1, 0] }]
+            }))
+        };
+        assert!(check::check(&rod(0.3)).is_ok(), "{length} m");
+        let refused = check::check(&rod(1.5)).unwrap_err();
+        assert_eq!(refused.code(), "start-too-far", "{length} m: {refused}");
+    }
 }

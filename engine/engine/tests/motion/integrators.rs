@@ -270,6 +270,13 @@ fn stiff_loads_cost_few_steps_and_auto_knows_them() {
     // Mild loads are left to the others.
     let mild = Simulation::new(&guided(&spring(100.0, 1.0), 0.0, 1.0, "auto")).unwrap().summary();
     assert_eq!(mild.integrator, IntegratorKind::Taylor);
+    // What rests takes the series a step for every ten radians that a spring could make: few of them, or too many.
+    for (stiffness, kind) in [(1.6e3, IntegratorKind::Taylor), (1e8, IntegratorKind::Radau)] {
+        let mut load = spring(stiffness, 0.0);
+        load["free_length"] = 1.01.into();
+        let summary = Simulation::new(&guided(&load, 0.0, 1.0, "auto")).unwrap().summary();
+        assert_eq!(summary.integrator, kind, "{stiffness:.0e} N/m: {}", summary.reason);
+    }
 }
 
 #[test]

@@ -22,6 +22,8 @@ const LOOSER_OPEN: f64 = -0.16;
 /// Radians of an oscillation that may be left out that are as costly for the series as a decay, and the same on open trees.
 const RADIANS_A_DECAY: f64 = 0.4;
 const RADIANS_A_DECAY_OPEN: f64 = 1.0;
+/// Radians of an oscillation that are some ten steps of the series at most, whatever the mechanism.
+const FEW_RADIANS: f64 = 100.0;
 /// Freedoms that make an evaluation of the implicit method twice as dear, for its Jacobian matrix, and how much dearer it is
 /// where loops must be closed.
 const MANY_FREEDOMS: f64 = 16.0;
@@ -88,11 +90,11 @@ fn many_decays(mechanism: &Mechanism, freedoms: usize, y: &[f64]) -> [f64; 2] {
         let dearer = if closed { CLOSED } else { 1.0 };
         let many =
             (MANY_DECAYS + DECAYS_A_RADIAN * radians) * (1.0 + freedoms as f64 / MANY_FREEDOMS) * dearer;
-        [many, RADIANS_A_DECAY * many]
+        [many, FEW_RADIANS.max(RADIANS_A_DECAY * many)]
     } else {
         let looser = libm::pow(settings.tolerance / MIDDLE_TOLERANCE, LOOSER_OPEN);
         let dearer = libm::pow(freedoms as f64, FREEDOMS_OPEN) * looser;
         let many = (MANY_DECAYS_OPEN + DECAYS_A_RADIAN_OPEN * radians) * dearer;
-        [many, RADIANS_A_DECAY_OPEN * many]
+        [many, FEW_RADIANS.max(RADIANS_A_DECAY_OPEN * many)]
     }
 }
