@@ -233,7 +233,8 @@ impl System {
         }
         let points: Vec<_> = self.features.iter().filter(|f| f.point).map(|f| self.at_start(f)).collect();
         let apart = |p: &Vector3<f64>| points.first().map_or(0.0, |first| (p - first).norm());
-        let (apart, far) = points.iter().fold((0.0f64, 0.0f64), |most, p| (most.0.max(apart(p)), most.1.max(p.amax())));
+        let (apart, far) =
+            points.iter().fold((0.0f64, 0.0f64), |most, p| (most.0.max(apart(p)), most.1.max(p.amax())));
         let spread = if apart > ROUNDED * far { apart } else { 0.0 };
         let largest = radius.max(spread);
         if largest > 0.0 { largest } else { 1.0 }

@@ -145,16 +145,17 @@ impl SystemLoad {
         Some([x, rate, law.value(x, rate, at.time)])
     }
 
-    /// The largest force or moment that it is the sum of at rest, N or N m: rounding is a part of that, even where the sum is zero. Lengths
-    /// are known as well as `reach` is.
-    pub fn largest_part(&self, at: &State, reach: f64) -> f64 {
+    /// The largest force that it is the sum of at rest, N, moments over a length: rounding is a part of that, even where the sum is
+    /// zero. Lengths are known as well as `reach` is.
+    pub fn largest_part(&self, at: &State, length: f64, reach: f64) -> f64 {
         match self {
-            Self::Force { .. } | Self::Moment { .. } => self.given(at).map_or(0.0, |vector| vector.norm()),
+            Self::Force { .. } => self.given(at).map_or(0.0, |vector| vector.norm()),
+            Self::Moment { .. } => self.given(at).map_or(0.0, |vector| vector.norm() / length),
             Self::Spring { law, .. } | Self::Slider { law, .. } => {
                 self.coordinate(at).map_or(0.0, |(x, _)| law.largest_part(x, reach, at.time))
             }
             Self::Torsion { law, .. } => {
-                self.coordinate(at).map_or(0.0, |(x, _)| law.largest_part(x, 1.0, at.time))
+                self.coordinate(at).map_or(0.0, |(x, _)| law.largest_part(x, 1.0, at.time) / length)
             }
         }
     }

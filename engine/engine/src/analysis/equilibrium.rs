@@ -102,7 +102,7 @@ fn eigen(matrix: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
 /// A held position with its small motions and the forces along them.
 struct Held {
     basis: DMatrix<f64>,
-    /// Of the forces on bodies, the largest.
+    /// Of the forces on bodies, the largest, N.
     largest: f64,
     /// The generalized force.
     along: DVector<f64>,
@@ -110,10 +110,10 @@ struct Held {
 
 impl Held {
     fn new(stage: &mut Stage) -> Result<Self, AnalysisError> {
-        let basis = stage.tangent()?;
+        let basis = stage.displacements()?;
         stage.rest();
         let force = stage.forces();
-        Ok(Self { largest: force.amax(), along: basis.tr_mul(&force), basis })
+        Ok(Self { largest: stage.largest(&force), along: basis.tr_mul(&force), basis })
     }
 
     /// Work of the forces for each unit of a motion, of which the part counts that the joints allow here.
@@ -143,7 +143,9 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
             return found(stage, &held, &stiffnesses, steps);
         }
         let next = if residual.is_finite() {
-            let step = downhill(&held, &stiffness, (&stiffnesses, &motions), stage.mechanism.system.length);
+            let nothing = rounding(stage).max(BALANCED * held.largest);
+            let length = stage.mechanism.system.length;
+            let step = downhill(&held, &stiffness, (&stiffnesses, &motions), length, nothing);
             advance(stage, &held, &step, &mut reach, &mut steps)?
         } else {
             None
@@ -160,25 +162,25 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
     }
 }
 
-/// Forces and moments below this are the rounding of a balance, N or N m: a part of the largest one that takes part in it. What is left on
+/// Forces, and moments over the mechanism's length, below this are the rounding of a balance, N: a part of the largest one that takes part in it. What is left on
 /// a body that springs alone carry is rounding itself, and nothing to compare with.
 pub(super) fn rounding(stage: &Stage) -> f64 {
     ROUNDED * largest_part(stage)
 }
 
-/// The largest force that takes part in a balance, N, or its moment, N m.
+/// The largest force, or moment over the mechanism's length, that takes part in a balance, N.
 pub(super) fn largest_part(stage: &Stage) -> f64 {
     let Mechanism { system, state, .. } = &stage.mechanism;
     let length = system.length;
     let reach = state.bodies().iter().fold(length, |reach, at| reach.max(at.q.r.norm()));
     let weights = system.bodies.iter().map(|body| body.mass * system.model.gravity.norm());
-    let loads = system.loads.iter().map(|load| load.largest_part(state, reach));
+    let loads = system.loads.iter().map(|load| load.largest_part(state, length, reach));
     let turning = system.bodies.iter().zip(state.bodies()).enumerate().map(|(index, (body, at))| {
         let [_, omega] = stage.flow.twist(index, &at.q);
-        body.principal.max() * omega.norm_squared()
+        body.principal.max() * omega.norm_squared() / length
     });
-    let inertial = turning.fold((stage.forces() - stage.loads()).amax(), f64::max);
-    length.max(1.0) * weights.chain(loads).fold(inertial, f64::max)
+    let inertial = turning.fold(stage.largest(&(stage.forces() - stage.loads())), f64::max);
+    weights.chain(loads).fold(inertial, f64::max)
 }
 
 /// The position of rest at which the stage is.
@@ -206,13 +208,14 @@ fn found(
 
 /// The step of Newton's method with all stiffnesses made positive.
 ///
-/// Motions that change no force, such as the spin of a link about its own axis, are left out where nothing pushes along them: away
+/// Motions that change no force, such as the spin of a link about its own axis, are left out where `nothing` pushes along them, N: away
 /// from equilibrium the symmetric part of the stiffness couples them with motions that matter, by a stiffness below zero.
 fn downhill(
     held: &Held,
     stiffness: &DMatrix<f64>,
     (stiffnesses, motions): (&DVector<f64>, &DMatrix<f64>),
     length: f64,
+    nothing: f64,
 ) -> DVector<f64> {
     let stiffest = stiffnesses.amax();
     let floor = (SOFTEST * stiffest).max(held.along.amax() / (FARTHEST * length)).max(f64::MIN_POSITIVE);
@@ -230,7 +233,7 @@ fn downhill(
     let motions = felt * motions;
     let step = &motions * divided(motions.tr_mul(&held.along), &stiffnesses);
     let along = idle.tr_mul(&held.along);
-    if along.amax() <= BALANCED * held.largest { step } else { step + idle * (along / floor) }
+    if along.amax() <= nothing { step } else { step + idle * (along / floor) }
 }
 
 /// Bases of the motions that change no force and of the others; `None` where all do.

@@ -162,9 +162,8 @@ pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Mod
         notes.push("joints and drivers leave no freedom: nothing can vibrate".to_owned());
     }
     stage.rest();
-    let force = stage.forces();
-    let left = basis.tr_mul(&force).amax();
-    if left > (UNBALANCED * force.amax()).max(equilibrium::rounding(&stage)) {
+    let left = basis.tr_mul(&stage.forces()).amax();
+    if left > (UNBALANCED * stage.largest_force()).max(equilibrium::rounding(&stage)) {
         notes.push(format!(
             "the position is not an equilibrium: a generalized force of {left:.3e} N is left, which the linear \
              equations leave out"

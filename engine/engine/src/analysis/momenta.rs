@@ -170,8 +170,21 @@ pub struct Momenta {
     pub along: DVector<f64>,
     /// Uniform velocity of a mechanism that is free to move as a whole.
     pub carried: Vector3<f64>,
+    /// Translations of the whole that nothing resists, along the fields.
+    pub translations: DMatrix<f64>,
     /// Velocities below this are rounding.
     pub least: f64,
+}
+
+/// The part of a basis of twists that leaves the whole where it is: it has nothing to do with the translations.
+pub fn across(
+    bodies: &[RigidBody],
+    at: &[NaturalCoordinates],
+    translations: DMatrix<f64>,
+    basis: DMatrix<f64>,
+) -> DMatrix<f64> {
+    let momentum = energetic(bodies, at, translations).tr_mul(&energetic(bodies, at, basis.clone()));
+    basis * null_and_rest(&momentum, MISSED * momentum.norm()).0
 }
 
 impl Momenta {

@@ -3,7 +3,7 @@
 mod damping;
 
 use super::flow::Flow;
-use super::momenta::Momenta;
+use super::momenta::{self, Momenta};
 use super::{AnalysisError, MAX_FREEDOMS, Wanted, idle};
 use crate::error::EngineError;
 use crate::scene::Scene;
@@ -168,6 +168,24 @@ impl Stage {
         Ok(self.geometry.twists())
     }
 
+    /// The same without translations of the whole that nothing resists, while a steady motion is looked for: it is the same everywhere
+    /// along them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Stage::tangent`].
+    pub fn displacements(&mut self) -> Result<DMatrix<f64>, AnalysisError> {
+        let basis = self.tangent()?;
+        Ok(match &self.momenta {
+            Some(momenta) => {
+                let at = self.places(&self.q);
+                let translations = momenta.fields.twists(&at) * &momenta.translations;
+                momenta::across(&self.mechanism.system.bodies, &at, translations, basis)
+            }
+            None => basis,
+        })
+    }
+
     /// Resultant force and moment about the centre of mass of all loads, body by body, at the state taken over last.
     pub fn loads(&self) -> DVector<f64> {
         let Mechanism { system, state, .. } = &self.mechanism;
@@ -188,11 +206,16 @@ impl Stage {
         out
     }
 
-    /// The largest of them on a body, N, moments over the mechanism's length.
+    /// The largest of them on a body, N.
     pub fn largest_force(&self) -> f64 {
+        self.largest(&self.forces())
+    }
+
+    /// The largest of forces and moments, body by body, N: moments over the mechanism's length.
+    pub fn largest(&self, wrenches: &DVector<f64>) -> f64 {
         let length = self.mechanism.system.length;
         let along = |(k, x): (usize, &f64)| if k % 6 >= 3 { x.abs() / length } else { x.abs() };
-        self.forces().iter().enumerate().map(along).fold(0.0, f64::max)
+        wrenches.iter().enumerate().map(along).fold(0.0, f64::max)
     }
 
     /// Calls `take` with the force and moment of inertia on each body, whose velocities in the frame of the steady motion are

@@ -5,8 +5,8 @@
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use triad_engine::analysis::{Modes, ModesAbout, check, equilibrium, modes};
-use triad_engine::prelude::Simulation;
 use triad_engine::catalogue;
+use triad_engine::prelude::Simulation;
 use triad_engine::scene::Scene;
 
 fn scene(value: &Value) -> Scene {
@@ -201,5 +201,29 @@ fn a_start_that_is_far_off_is_refused_in_any_unit() {
         assert!(check::check(&rod(0.3)).is_ok(), "{length} m");
         let refused = check::check(&rod(1.5)).unwrap_err();
         assert_eq!(refused.code(), "start-too-far", "{length} m: {refused}");
+    }
+}
+
+/// A steady motion and the small motions about it are found in any units of length and mass.
+#[test]
+fn steady_motions_are_found_in_any_unit() {
+    let plate = |length: f64, mass: f64| {
+        let inertia = mass * length * length;
+        let scene = scene(&json!({
+            "name": "plate", "gravity": [0, 0, 0],
+            "bodies": [{ "name": "plate", "mass": 12.0 * mass, "inertia": { "principal": [inertia, 2.0 * inertia, 3.0 * inertia] },
+                "angular_velocity": [1, 2, 3] }]
+        }));
+        modes(&scene, ModesAbout::Steady)
+    };
+    let usual = plate(1.0, 1.0).unwrap();
+    assert!(!oscillating(&usual).is_empty());
+    for (length, mass) in [(1e-1, 1.0), (1e-3, 1.0), (1e-3, 1e-6), (1e3, 1e6)] {
+        let found = plate(length, mass).unwrap_or_else(|error| panic!("{length} m, {mass} kg: {error}"));
+        assert_eq!(kinds(&found), kinds(&usual), "{length} m, {mass} kg");
+        near(&oscillating(&found), &oscillating(&usual), 1e-6);
+        // It is the same anywhere, and so it is where it was.
+        let way = nalgebra::Vector3::from(found.bodies[0].position).norm() / length;
+        assert!(way < 1e-6, "{length} m, {mass} kg: moved by {way} lengths");
     }
 }

@@ -1,12 +1,11 @@
 //! The steady motion near the start, if there is one.
 
-use crate::analysis::momenta::{Fields, MISSED, Momenta, Solutions, energetic};
+use crate::analysis::momenta::{self, Fields, MISSED, Momenta, Solutions, energetic};
 use crate::analysis::{AnalysisError, Stage, equilibrium};
 use nalgebra::{DMatrix, DVector, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
 use triad_dynamics::constraints::violation;
-use triad_linalg::null_and_rest;
 
 /// Part of the largest force by which forces may change in the frame of the motion.
 const CHANGED: f64 = 1e-6;
@@ -53,12 +52,14 @@ pub struct Unfelt {
 }
 
 impl Unfelt {
-    /// The part of a basis of small motions that leaves the whole where it is: it has nothing to do with the translations.
+    /// The part of a basis of small motions that leaves the whole where it is.
     pub fn across(&self, stage: &Stage, basis: DMatrix<f64>) -> DMatrix<f64> {
-        let (bodies, at) = (&stage.mechanism.system.bodies, stage.places(&stage.q));
-        let momentum =
-            energetic(bodies, &at, self.translations.clone()).tr_mul(&energetic(bodies, &at, basis.clone()));
-        basis * null_and_rest(&momentum, MISSED * momentum.norm()).0
+        momenta::across(
+            &stage.mechanism.system.bodies,
+            &stage.places(&stage.q),
+            self.translations.clone(),
+            basis,
+        )
     }
 }
 
@@ -114,8 +115,6 @@ fn none(reason: String) -> AnalysisError {
 struct Symmetries {
     /// Those along which the loads are carried along.
     alike: DMatrix<f64>,
-    /// Translations among them that nothing resists.
-    translations: DMatrix<f64>,
     /// The steady motions that follow of the velocities at the start.
     momenta: Momenta,
 }
@@ -166,11 +165,12 @@ impl Symmetries {
         let momenta = Momenta {
             along: allowed.free.tr_mul(&momenta),
             carried: whole.one.fixed_rows::<3>(3).into_owned(),
+            translations,
             least: MISSED * fields.size(&start),
             fields,
             allowed,
         };
-        Ok(Self { alike, translations, momenta })
+        Ok(Self { alike, momenta })
     }
 
     /// Whether the loads leave the momenta along the motions of the whole as they are.
@@ -179,7 +179,7 @@ impl Symmetries {
         let twists = self.momenta.fields.twists(&stage.places(&stage.q)) * &self.momenta.allowed.free;
         let force = stage.forces();
         let along = twists.tr_mul(&force);
-        if along.amax() <= (CHANGED * force.amax()).max(equilibrium::rounding(stage)) {
+        if along.amax() <= (CHANGED * stage.largest(&force)).max(equilibrium::rounding(stage)) {
             return Ok(());
         }
         Err(none(format!(
@@ -195,12 +195,13 @@ impl Symmetries {
         let fields = &self.momenta.fields;
         let twists = fields.twists(&at);
         let moving = energetic(bodies, &at, twists.clone());
-        let momentum = (&moving * &self.translations).tr_mul(&moving);
+        let translations = &self.momenta.translations;
+        let momentum = (&moving * translations).tr_mul(&moving);
         let p = self.momenta.velocities(bodies, &at);
         let mut drifts = Solutions { one: DVector::zeros(p.len()), free: self.alike.clone() };
         drifts.without(&momentum, MISSED * momentum.norm());
         drifts.without(&fields.bracket(&p), MISSED * p.norm());
-        Unfelt { translations: &twists * &self.translations, drifts: twists * drifts.free }
+        Unfelt { translations: &twists * translations, drifts: twists * drifts.free }
     }
 }
 
@@ -253,7 +254,12 @@ fn changes_of_loads(stage: &mut Stage, fields: &Fields, twists: &DMatrix<f64>) -
         out.set_column(k, &(change - fields.turned(k, &loads)));
     }
     stage.place(&q);
-    (out, CHANGED * equilibrium::largest_part(stage) / stage.mechanism.system.length)
+    let length = stage.mechanism.system.length;
+    for (k, mut row) in out.row_iter_mut().enumerate() {
+        // Moments over the length are beside forces what these are.
+        row /= if k % 6 >= 3 { length } else { 1.0 };
+    }
+    (out, CHANGED * equilibrium::largest_part(stage) / length)
 }
 
 /// Rows that are zero for motions along which the momenta stay in place: ⟨μ, [ξ, η]⟩ of each η in `alike`.
@@ -315,7 +321,7 @@ fn lasts(stage: &mut Stage) -> Result<(), AnalysisError> {
             system[id].name
         )));
     }
-    if changed.amax() > (CHANGED * now.amax()).max(equilibrium::rounding(stage)) {
+    if stage.largest(&changed) > (CHANGED * stage.largest(&now)).max(equilibrium::rounding(stage)) {
         return Err(none(format!(
             "the forces on body \"{}\" change in the frame that moves along: weight and springs to the ground stay the same \
              only about an axis along them",
