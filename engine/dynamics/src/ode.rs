@@ -67,6 +67,11 @@ pub trait OdeSystem {
         true
     }
 
+    /// Which way each dry friction slides at the state (t, y): 1 or −1, or 0 where it sticks or turns round; nothing where there is none.
+    fn slidings(&mut self, _t: f64, _y: &[f64], out: &mut Vec<i8>) {
+        out.clear();
+    }
+
     /// Power of what changes the energy at the state that was evaluated last, W, where there is such and the system knows it.
     fn power(&self) -> Option<f64> {
         None
@@ -100,6 +105,9 @@ impl<S: OdeSystem + ?Sized> OdeSystem for &mut S {
     }
     fn power_at(&mut self, t: f64, y: &[f64]) -> Option<f64> {
         (**self).power_at(t, y)
+    }
+    fn slidings(&mut self, t: f64, y: &[f64], out: &mut Vec<i8>) {
+        (**self).slidings(t, y, out);
     }
     fn energy_of(&self, error: f64) -> f64 {
         (**self).energy_of(error)

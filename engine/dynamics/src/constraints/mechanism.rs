@@ -26,8 +26,8 @@ const RATE_ROUNDING: f64 = 1e-9;
 /// |Φ̇| of a row, relative to its size, below which the velocities at the end of a step satisfy the constraints, 1/s for each
 /// unit of the tolerance.
 const RATE_TOLERANCE: f64 = 1e3;
-/// A start that must be moved by more than this part of the mechanism's size, two of its lengths, is not corrected but refused.
-const MAX_MOVE: f64 = 0.35;
+/// A start that must be moved by more than this part of the mechanism's length is not corrected but refused.
+const MAX_MOVE: f64 = 0.5;
 
 /// A system, a state, and the solver of its equations.
 #[derive(Clone, Debug)]
@@ -163,14 +163,13 @@ impl Mechanism {
             project_positions(&mut on, &rules::ASSEMBLY_POSITIONS, length);
         }
         let left = violation::measure(&self.system, &self.state).relative;
-        let size = 2.0 * length;
-        let moved = self.moved(given, y, size);
+        let moved = self.moved(given, y);
         // A comparison that is false for NaN as well.
         let solved = y.iter().all(|x| x.is_finite()) && left <= CLOSED;
         if !solved {
             return Err(self.assembly_error(t, given, y, moved));
         }
-        let limit = MAX_MOVE * size;
+        let limit = MAX_MOVE * length;
         if moved > limit {
             self.set_state(t, given);
             let violated = violation::measure(&self.system, &self.state);
@@ -190,12 +189,12 @@ impl Mechanism {
         }))
     }
 
-    /// The longest way of a point of a body of this size from one state to another, m.
-    fn moved(&self, from: &[f64], to: &[f64], size: f64) -> f64 {
+    /// The longest way of a body from one state to another, m, arcs at the mechanism's length.
+    fn moved(&self, from: &[f64], to: &[f64]) -> f64 {
         let ways = self.system.bodies.iter().map(|body| {
             let [a, b] = [from, to].map(|y| body.position(&y[..self.system.coordinates]));
             let turned = (0..3).map(|k| (a.e[k] - b.e[k]).norm()).fold(0.0, f64::max);
-            (a.r - b.r).norm().max(size * turned)
+            (a.r - b.r).norm().max(self.system.length * turned)
         });
         ways.fold(0.0, f64::max)
     }

@@ -12,6 +12,9 @@ use crate::system::load::SystemLoad;
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 
+/// Rate, in the smoothing of a dry friction, from which on it is all there: tanh 20 is one to the last digit.
+const STICKING: f64 = 20.0;
+
 /// Generalized applied forces of all bodies.
 #[derive(Clone, Debug, Default)]
 pub struct AppliedForces {
@@ -143,6 +146,24 @@ impl SystemLoad {
         };
         let (x, rate) = self.coordinate(at)?;
         Some([x, rate, law.value(x, rate, at.time)])
+    }
+
+    /// Whether it has a dry friction.
+    pub fn is_dry(&self) -> bool {
+        let (Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. }) = self else {
+            return false;
+        };
+        law.friction.is_some_and(|friction| friction.coulomb > 0.0 || friction.coefficient > 0.0)
+    }
+
+    /// Which way its dry friction slides: 1 or −1, or 0 where it sticks or turns round; `None` without any.
+    pub fn sliding(&self, at: &State) -> Option<i8> {
+        let (Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. }) = self else {
+            return None;
+        };
+        let smoothing = law.friction.filter(|_| self.is_dry())?.smoothing;
+        let (_, rate) = self.coordinate(at)?;
+        Some(if rate.abs() < STICKING * smoothing { 0 } else { rate.signum() as i8 })
     }
 
     /// The largest force that it is the sum of at rest, N, moments over a length: rounding is a part of that, even where the sum is

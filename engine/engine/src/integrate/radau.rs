@@ -80,6 +80,8 @@ pub struct Radau {
     trial: Vec<f64>,
     trial_rate: Vec<f64>,
     defect: Vec<f64>,
+    /// Which way dry frictions slide at the start and at the end of a step.
+    slidings: [Vec<i8>; 2],
     jacobian: RateJacobian,
     beside_states: BesideStates,
     factors: Factors,
@@ -155,6 +157,7 @@ impl Radau {
             trial: vec![0.0; n],
             trial_rate: vec![0.0; n],
             defect: vec![0.0; n],
+            slidings: Default::default(),
             jacobian: RateJacobian::new(n / 2),
             beside_states: BesideStates::new(n),
             contraction: 1.0,
@@ -235,6 +238,18 @@ impl Radau {
         self.filtered_defect()
     }
 
+    /// Whether a dry friction slides otherwise at the end of a step of size h, which is in `trial`, than at its start. Then the Jacobian
+    /// matrix of one of the two is wrong for the other, and what the filter calls stiff may be the error: it went unseen.
+    fn slides_otherwise(&mut self, system: &mut impl OdeSystem, h: f64, end: f64) -> bool {
+        let [before, after] = &mut self.slidings;
+        system.slidings(self.last.t, &self.last.y, before);
+        if before.is_empty() {
+            return false;
+        }
+        system.slidings(self.last.end_of(h, end), &self.trial, after);
+        before != after
+    }
+
     /// Error of the work of what changes the energy in a step of size h, relative to what it may be: a driver may oscillate where
     /// the coordinates hardly move. Work that begins within the step is measured by what the tolerance leaves open anyway: beside none
     /// before it, any would be too much, however short the step.
@@ -251,12 +266,50 @@ impl Radau {
 
     /// (μ I − J)⁻¹ (ẋ − p'(0) / h) with ẋ in `trial_rate`, the real μ and the slope p' of the stages. Returns its size.
     fn filtered_defect(&mut self) -> f64 {
+        self.find_defect();
+        self.stages.filter(&self.jacobian, &mut self.factors, &mut self.defect);
+        self.size_of_defect()
+    }
+
+    /// The same of a J that knows of no forces.
+    fn plain_defect(&mut self) -> f64 {
+        self.trial_rate.copy_from_slice(&self.rate);
+        self.find_defect();
+        let over = self.factors.h / self.stages.method.tables.real;
+        let (places, rates) = self.defect.split_at_mut(self.rate.len() / 2);
+        for (place, rate) in places.iter_mut().zip(rates) {
+            *rate *= over;
+            *place = (*place + *rate) * over;
+        }
+        self.size_of_defect()
+    }
+
+    /// What the rates at the stages make of the step, less what was found, in tolerances: corrections may be small where a matrix is far too
+    /// stiff, and the stages nowhere near.
+    fn unsolved(&mut self, system: &mut impl OdeSystem, h: f64) -> f64 {
+        let Some(end) = self.stages.z.last() else { return 0.0 };
+        self.defect.iter_mut().zip(end).for_each(|(defect, z)| *defect = -z);
+        for ((node, weight), z) in self.stages.method.tables.nodes.iter().zip(&self.stages.z) {
+            for (trial, (x, z)) in self.trial.iter_mut().zip(self.last.y.iter().zip(z)) {
+                *trial = x + z;
+            }
+            system.rhs(self.last.t + node * h, &self.trial, &mut self.trial_rate);
+            let part = weight * h;
+            self.defect.iter_mut().zip(&self.trial_rate).for_each(|(defect, rate)| *defect += part * rate);
+        }
+        self.size_of_defect()
+    }
+
+    fn find_defect(&mut self) {
         let Stages { method, z, .. } = &self.stages;
         for i in 0..self.defect.len() {
             let slope: f64 = method.estimate.iter().zip(z).map(|(weight, z)| weight * z[i]).sum();
             self.defect[i] = slope / self.factors.h + self.trial_rate[i];
         }
-        self.stages.filter(&self.jacobian, &mut self.factors, &mut self.defect);
+    }
+
+    /// Its size in tolerances. Leaves the end of the step in `trial`.
+    fn size_of_defect(&mut self) -> f64 {
         if let Some(end) = self.stages.z.last() {
             for (trial, (x, z)) in self.trial.iter_mut().zip(self.last.y.iter().zip(end)) {
                 *trial = x + z;
@@ -311,7 +364,10 @@ impl OdeMethod for Radau {
                 continue;
             };
             self.contraction = solved.contraction;
-            let error = self.error(system, rejected).max(self.work_error(system, h));
+            let mut error = self.error(system, rejected).max(self.work_error(system, h));
+            if error < 1.0 && !self.fixed && self.slides_otherwise(system, h, end) {
+                error = error.max(self.plain_defect()).max(self.unsolved(system, h));
+            }
             let most = self.stages.max_iterations();
             let factor = SAFETY * (2 * most + 1) as f64 / (2 * most + solved.iterations) as f64;
             let by = (factor * libm::pow(error.max(MIN_ERROR), self.exponent)).clamp(CHANGE.0, CHANGE.1);

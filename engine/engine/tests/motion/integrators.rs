@@ -328,3 +328,41 @@ fn a_motion_that_feedback_lets_go_astray_says_so() {
     println!("astray: {told} times told, {doubted} times doubted");
     assert!(told > 0 && doubted > 0, "{told}, {doubted}");
 }
+
+/// A block that dry friction brings to rest, smoothed at a millionth of its speed: v²/(2 a) far. Whatever step comes upon the end of the
+/// motion, none goes over it.
+#[test]
+fn no_stiff_step_goes_over_the_end_of_sliding() {
+    let friction = serde_json::json!({"type": "slider", "name": "friction", "joint": "guide",
+        "friction": {"coulomb": 2.0, "smoothing": 1e-6}});
+    for tolerance in [1e-5, 1e-7, 1e-9] {
+        for speed in [0.9, 0.95, 1.0, 1.05, 1.1, 1.2] {
+            let mut scene = guided(&friction, speed, 1.0, "radau");
+            scene.simulation.tolerance = tolerance;
+            let (frame, run) = end(&scene);
+            let error = (frame.bodies[0].position[0] - 1.01 - 0.25 * speed * speed).abs();
+            let summary = run.summary();
+            println!("{tolerance:.0e}, {speed}: {error:.1e}, {} + {} steps", summary.steps, summary.rejected);
+            assert!(error < tolerance.min(1e-9), "{tolerance:.0e}, {speed} m/s: off by {error:.1e} m");
+        }
+    }
+}
+
+/// The same where a force pushes the block to and fro, and it sticks in between: beside a method that knows no matrices.
+#[test]
+fn stiff_steps_see_blocks_stick_and_slip() {
+    let friction = serde_json::json!({"type": "slider", "name": "friction", "joint": "guide",
+        "force": {"kind": "harmonic", "amplitude": 3.0, "frequency": 0.5},
+        "friction": {"coulomb": 2.0, "smoothing": 1e-3}});
+    let at_end = |integrator: &str, tolerance: f64| {
+        let mut scene = guided(&friction, 0.3, 4.0, integrator);
+        scene.simulation.tolerance = tolerance;
+        end(&scene).0.bodies[0].position[0]
+    };
+    let reference = at_end("dop853", 1e-10);
+    for tolerance in [1e-4, 1e-6, 1e-8] {
+        let error = (at_end("radau", tolerance) - reference).abs();
+        println!("{tolerance:.0e}: {error:.1e}");
+        assert!(error < 3.0 * tolerance, "{tolerance:.0e}: off by {error:.1e} m");
+    }
+}

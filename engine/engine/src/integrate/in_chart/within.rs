@@ -11,6 +11,7 @@ use std::fmt::Debug;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::ode::{Many, OdeSystem, What};
 use triad_dynamics::system::System;
+use triad_dynamics::system::load::SystemLoad;
 
 /// The mechanism in the coordinates of a chart.
 struct InCoordinates<'a> {
@@ -133,6 +134,14 @@ impl OdeSystem for InCoordinates<'_> {
             if let Some(guess) = rest.first_mut() {
                 guess.copy_from(before.last().unwrap_or(self.guess));
             }
+        }
+    }
+
+    fn slidings(&mut self, t: f64, x: &[f64], out: &mut Vec<i8>) {
+        out.clear();
+        if self.mechanism.system.loads.iter().any(SystemLoad::is_dry) && self.find(t, x) {
+            let Mechanism { system, state, .. } = &*self.mechanism;
+            out.extend(system.loads.iter().filter_map(|load| load.sliding(state)));
         }
     }
 
