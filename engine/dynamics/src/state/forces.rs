@@ -163,7 +163,8 @@ impl SystemLoad {
         };
         let smoothing = law.friction.filter(|_| self.is_dry())?.smoothing;
         let (_, rate) = self.coordinate(at)?;
-        Some(if rate.abs() < STICKING * smoothing { 0 } else { rate.signum() as i8 })
+        let way = if rate > 0.0 { 1 } else { -1 };
+        Some(if rate.abs() < STICKING * smoothing { 0 } else { way })
     }
 
     /// The largest force that it is the sum of at rest, N, moments over a length: rounding is a part of that, even where the sum is
