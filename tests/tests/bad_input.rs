@@ -127,6 +127,31 @@ fn a_terminal_is_told_the_sentence_the_place_and_the_remedy() {
     }
 }
 
+/// A key that is none is answered with what was meant: the nearest key there, or where a setting belongs.
+#[test]
+fn an_unknown_key_is_told_what_was_meant() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = Server::start(folder.path());
+    for (place, value, said) in [
+        ("/duration", json!(3), "\"duration\" is one of the settings: write it within \"simulation\"."),
+        ("/joint", json!([]), "Did you mean \"joints\"?"),
+        ("/bodies/0/mas", json!(2), "Did you mean \"mass\"?"),
+        ("/bodies/0/positon", json!([0, 0, 0]), "Did you mean \"position\"?"),
+    ] {
+        let mut scene = good();
+        set(&mut scene, place, value);
+        let answer = server.post("/api/v1/check", &scene);
+        let refused = answer.json();
+        assert_eq!(answer.status, 422, "{place}: {refused}");
+        assert_eq!(refused["hint"], json!(said), "{place}: {refused}");
+        let file = folder.path().join("scene.json");
+        std::fs::write(&file, scene.to_string()).unwrap();
+        let output = run(&["check", file.to_str().unwrap()]);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(3) && told.contains(said), "{place}: {told}");
+    }
+}
+
 /// Near a solution the start is moved onto it, and the report says so and by how much.
 #[test]
 fn a_start_off_the_constraints_is_corrected_and_reported() {

@@ -386,6 +386,16 @@ impl System {
             body.layout.store(&NaturalCoordinates { r: model.velocity, e: e_dot }, q_dot);
         }
     }
+
+    /// The longest way of a body from one position q to another, m, arcs at the mechanism's length. Not a number if one of q is none.
+    pub fn longest_way(&self, from: &[f64], to: &[f64]) -> f64 {
+        let ways = self.bodies.iter().map(|body| {
+            let [a, b] = [from, to].map(|q| body.position(q));
+            let turned = (0..3).map(|k| (a.e[k] - b.e[k]).norm()).fold(0.0, f64::max);
+            (a.r - b.r).norm().max(self.length * turned)
+        });
+        ways.fold(0.0, |most, way| if way <= most { most } else { way })
+    }
 }
 
 impl Constraint {

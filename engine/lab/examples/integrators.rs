@@ -1,8 +1,8 @@
 //! Time of each integrator to a given error, on built-in scenes and on scenes with loads and drivers:
 //! `cargo run --release -p triad-lab --example integrators [scene …]`.
 //!
-//! Integration alone, without estimates of errors, in processor time, because the machine may be shared; mean of many repeats. The error is the largest distance of
-//! centres of mass and tips of directors, every tenth of a second, from the tightest run.
+//! Integration alone, without estimates of errors, in processor time, because the machine may be shared; mean of many repeats.
+//! The error is the largest distance of centres of mass and tips of directors, every tenth of a second, from the tightest run.
 
 use std::time::Instant;
 use triad_engine::EngineError;

@@ -180,14 +180,23 @@ export class Transport {
       if (event.key === "Escape") clock.blur();
       if (event.key !== "Enter") return;
       const time = typedNumber(clock.value.replace(/\s*s\s*$/, ""));
-      if (Number.isFinite(time)) {
+      const wrong = this.wrongTime(time);
+      if (wrong === undefined) {
         clock.blur();
         void session.goTo(time);
         return;
       }
-      clock.setCustomValidity(t("Write a time in seconds, such as 1.5"));
+      clock.setCustomValidity(wrong);
       clock.reportValidity();
     });
+  }
+
+  /** What is wrong with a typed time. */
+  private wrongTime(time: number): string | undefined {
+    if (!Number.isFinite(time)) return t("Write a time in seconds, such as 1.5");
+    const duration = this.session.latest?.duration ?? Infinity;
+    if (time >= 0 && time <= duration) return undefined;
+    return t("The run goes from 0 to {duration} s: write a time within", { duration: shortest(duration) });
   }
 
   private bindKeys(): () => void {
@@ -256,7 +265,7 @@ export class Transport {
     if (!state) return;
     this.paintTimeline(session.time, state);
     if (document.activeElement !== this.clock) this.clock.value = fixedPlain(session.time, 3);
-    setText(this.until, t("of {duration} s", { duration: Number(state.duration.toFixed(3)) }));
+    setText(this.until, t("of {duration} s", { duration: shortest(state.duration) }));
     setText(this.mode, session.replaying ? t("replay") : modeOf(state));
     this.live.hidden = !session.reviewing || session.replaying;
     this.mode.hidden = !this.live.hidden;
@@ -297,6 +306,11 @@ export class Transport {
     this.play.setAttribute("aria-label", label);
     this.play.title = `${label} (${t("space")})`;
   }
+}
+
+/** A duration to the millisecond, without zeros at its end. */
+function shortest(duration: number): number {
+  return Number(duration.toFixed(3));
 }
 
 function modeOf(state: SessionState): string {

@@ -163,7 +163,7 @@ impl Mechanism {
             project_positions(&mut on, &rules::ASSEMBLY_POSITIONS, length);
         }
         let left = violation::measure(&self.system, &self.state).relative;
-        let moved = self.moved(given, y);
+        let moved = self.system.longest_way(&given[..n], &y[..n]);
         // A comparison that is false for NaN as well.
         let solved = y.iter().all(|x| x.is_finite()) && left <= CLOSED;
         if !solved {
@@ -187,16 +187,6 @@ impl Mechanism {
                 "positions violated the constraints by {violated:.3e}; bodies were moved by up to {moved:.3e} onto them"
             )
         }))
-    }
-
-    /// The longest way of a body from one state to another, m, arcs at the mechanism's length.
-    fn moved(&self, from: &[f64], to: &[f64]) -> f64 {
-        let ways = self.system.bodies.iter().map(|body| {
-            let [a, b] = [from, to].map(|y| body.position(&y[..self.system.coordinates]));
-            let turned = (0..3).map(|k| (a.e[k] - b.e[k]).norm()).fold(0.0, f64::max);
-            (a.r - b.r).norm().max(self.system.length * turned)
-        });
-        ways.fold(0.0, f64::max)
     }
 
     /// Moves the velocities onto the constraints, with the positions in place, and says so if it had to, and if little is left of

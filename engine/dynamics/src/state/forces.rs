@@ -141,27 +141,13 @@ impl SystemLoad {
     /// The length, angle or displacement that a load with a law acts along, its rate, and the force or moment in the
     /// direction in which it grows — eq. (6.9). `None` for other loads, and for a spring of no length.
     pub fn acting(&self, at: &State) -> Option<[f64; 3]> {
-        let (Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. }) = self else {
-            return None;
-        };
         let (x, rate) = self.coordinate(at)?;
-        Some([x, rate, law.value(x, rate, at.time)])
-    }
-
-    /// Whether it has a dry friction.
-    pub fn is_dry(&self) -> bool {
-        let (Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. }) = self else {
-            return false;
-        };
-        law.friction.is_some_and(|friction| friction.coulomb > 0.0 || friction.coefficient > 0.0)
+        Some([x, rate, self.law()?.value(x, rate, at.time)])
     }
 
     /// Which way its dry friction slides: 1 or −1, or 0 where it sticks or turns round; `None` without any.
     pub fn sliding(&self, at: &State) -> Option<i8> {
-        let (Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. }) = self else {
-            return None;
-        };
-        let smoothing = law.friction.filter(|_| self.is_dry())?.smoothing;
+        let smoothing = self.dry_friction()?.smoothing;
         let (_, rate) = self.coordinate(at)?;
         let way = if rate > 0.0 { 1 } else { -1 };
         Some(if rate.abs() < STICKING * smoothing { 0 } else { way })
@@ -234,9 +220,7 @@ impl SystemLoad {
     /// Adds the generalized force of a unit force or moment along its coordinate, and returns its stiffness −∂f/∂x and
     /// its damping −∂f/∂ẋ; `None` for a load without a law.
     pub fn linearized(&self, system: &System, at: &State, forces: &mut AppliedForces) -> Option<(f64, f64)> {
-        let (Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. }) = self else {
-            return None;
-        };
+        let law = self.law()?;
         let (_, rate) = self.coordinate(at)?;
         self.push(system, at, 1.0, forces);
         Some((law.stiffness, law.slope(rate)))

@@ -2,7 +2,7 @@
 
 use crate::model::motion::VectorCurve;
 use crate::model::{BodyRef, ForceLaw, LoadKind, Model, ModelLoad};
-use crate::scene::LoadFrame;
+use crate::scene::{Friction, LoadFrame};
 use crate::system::feature::Difference;
 use crate::system::index::FeatureId;
 use crate::system::row_builder::RowBuilder;
@@ -143,22 +143,28 @@ impl SystemLoad {
         }
     }
 
+    /// The law of one that acts along a length, an angle or a displacement; `None` for a force or moment.
+    pub fn law(&self) -> Option<&ForceLaw> {
+        match self {
+            Self::Force { .. } | Self::Moment { .. } => None,
+            Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. } => Some(law),
+        }
+    }
+
+    /// Its dry friction.
+    pub fn dry_friction(&self) -> Option<Friction> {
+        let friction = self.law()?.friction?;
+        (friction.coulomb > 0.0 || friction.coefficient > 0.0).then_some(friction)
+    }
+
     /// The greatest damping −∂f/∂ẋ that its law has at any speed.
     pub fn steepest_damping(&self) -> f64 {
-        match self {
-            Self::Force { .. } | Self::Moment { .. } => 0.0,
-            Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. } => law.slope(0.0),
-        }
+        self.law().map_or(0.0, |law| law.slope(0.0))
     }
 
     /// Whether it is a spring alone.
     pub fn is_conservative(&self) -> bool {
-        match self {
-            Self::Force { .. } | Self::Moment { .. } => false,
-            Self::Spring { law, .. } | Self::Torsion { law, .. } | Self::Slider { law, .. } => {
-                law.damping == 0.0 && law.drive.is_none() && law.friction.is_none()
-            }
-        }
+        self.law().is_some_and(|law| law.damping == 0.0 && law.drive.is_none() && law.friction.is_none())
     }
 }
 

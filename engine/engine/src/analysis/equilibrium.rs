@@ -162,8 +162,8 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
     }
 }
 
-/// Forces, and moments over the mechanism's length, below this are the rounding of a balance, N: a part of the largest one that takes part in it. What is left on
-/// a body that springs alone carry is rounding itself, and nothing to compare with.
+/// Forces, and moments over the mechanism's length, below this are the rounding of a balance, N: a part of the largest one that
+/// takes part in it. What is left on a body that springs alone carry is rounding itself, and nothing to compare with.
 pub(super) fn rounding(stage: &Stage) -> f64 {
     ROUNDED * largest_part(stage)
 }

@@ -138,7 +138,8 @@ impl Companion {
             self.y.iter_mut().zip(&self.own).for_each(|(y, own)| *y -= own);
         }
         // A comparison that is false for NaN as well.
-        let near = apart(system, y, &self.y) < LOST * system.length;
+        let [a, b] = [y, &self.y].map(|y| &y[..system.coordinates]);
+        let near = system.longest_way(a, b) < LOST * system.length;
         self.lost = (!near).then_some(Lost::TooLarge(t));
     }
 
@@ -177,17 +178,4 @@ impl Companion {
 /// Tolerance of a second solution beside a first one at this tolerance.
 pub(super) fn tolerance_beside(first: f64) -> f64 {
     if first < NO_TIGHTER { TIGHTEST } else { (TIGHTER * first).max(TIGHTEST.min(NEAREST * first)) }
-}
-
-/// How far the positions of two states are apart, m: centres of mass, and directors for a mechanism of this length.
-fn apart(system: &System, a: &[f64], b: &[f64]) -> f64 {
-    let mut most = 0.0f64;
-    for body in &system.bodies {
-        let [a, b] = [a, b].map(|y| body.layout.position(&y[..system.coordinates]));
-        let turn = (0..3).map(|k| (a.e[k] - b.e[k]).norm()).fold(0.0, f64::max);
-        let off = (a.r - b.r).norm().max(system.length * turn);
-        // What is not a number must not get lost.
-        most = if off <= most { most } else { off };
-    }
-    most
 }

@@ -139,7 +139,7 @@ impl OdeSystem for InCoordinates<'_> {
 
     fn slidings(&mut self, t: f64, x: &[f64], out: &mut Vec<i8>) {
         out.clear();
-        if self.mechanism.system.loads.iter().any(SystemLoad::is_dry) && self.find(t, x) {
+        if self.mechanism.system.loads.iter().any(|load| load.dry_friction().is_some()) && self.find(t, x) {
             let Mechanism { system, state, .. } = &*self.mechanism;
             out.extend(system.loads.iter().filter_map(|load| load.sliding(state)));
         }
