@@ -38,6 +38,7 @@ use companion::Companion;
 use examiner::Examiner;
 use singularity::SingularityMonitor;
 use state_view::CachedState;
+use std::sync::OnceLock;
 use triad_dynamics::constraints::ConstraintError;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::Rank;
@@ -83,6 +84,8 @@ pub struct Simulation {
     step_limit: u64,
     /// Events found so far, in the order of time.
     occurrences: Vec<EventOccurrence>,
+    /// See [`Simulation::off_at_start`].
+    off_at_start: OnceLock<f64>,
     /// For each event, its quantity less the value that triggers it, and the rate of that, at the end of the last step.
     last_numbers: Vec<[f64; 2]>,
     /// When the run ends, s: its duration, or the moment of an event that stops it.
@@ -273,6 +276,7 @@ impl Simulation {
     fn step_integrator(&mut self, end: f64) -> Result<(), EngineError> {
         let mut until = end;
         let mut halvings = 0;
+        self.off_at_start.take();
         loop {
             let Self { integrator, mechanism, .. } = &mut *self;
             if let Err(stop) = integrator.step(mechanism, until) {

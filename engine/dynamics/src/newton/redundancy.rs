@@ -29,12 +29,14 @@ pub trait Movable: Projectable {
 /// The solver rows that depend on others everywhere: rank A in (8.1) is the number of the other rows. Leaves the state
 /// elsewhere.
 pub fn find_dependent_rows(on: &mut impl Movable, length: f64) -> Vec<SolverRow> {
+    on.linearize();
     move_away(on, length);
     on.dependent_rows(DEPENDENT)
 }
 
 /// Moves a consistent state by the part `AWAY` of the mechanism's length along an admissible velocity without symmetry,
-/// Φ_q q̇ = 0, and back onto Φ = 0; it stays where it is if nothing can move, or if Newton's method does not find back.
+/// Φ_q q̇ = 0, and back onto Φ = 0; it stays where it is if nothing can move, or if Newton's method does not find back. The factor
+/// at hand must be that of the state.
 pub fn move_away(on: &mut impl Movable, length: f64) {
     let mut start = Vec::new();
     on.for_each(|x, _| start.push(*x));

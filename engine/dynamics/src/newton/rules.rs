@@ -15,7 +15,7 @@
 //! | [`CHART_VELOCITIES`] | a velocity with given independent coordinates | at hand | consistent, stalled after 5 | 30 |
 //! | [`STEP_VELOCITIES`] | the end of a step | at hand | consistent, stalled | 2 |
 //! | [`SERIES_VELOCITIES`] | the end of a step of the series | at hand | — | 1 |
-//! | [`AWAY_VELOCITIES`] | the probe of the rank | once | consistent, stalled | 2 |
+//! | [`AWAY_VELOCITIES`] | the probe of the rank: a way out of the position | at hand | consistent, stalled | 2 |
 //! | [`KINEMATICS_VELOCITIES`] | a velocity of a driven mechanism | once | — | 4 |
 //! | [`ROUGH_VELOCITIES`] | a start with pinned bodies | once | — | 6 |
 //!
@@ -145,7 +145,8 @@ pub const STEP_VELOCITIES: StopRule = StopRule { max_corrections: 2, ..STEP_POSI
 /// The velocities at the end of a step of the series: its factor is exact there, and regularized ones are refined within.
 pub const SERIES_VELOCITIES: StopRule = StopRule { linearize: Linearize::Never, ..StopRule::exactly(1) };
 /// An admissible velocity; only its direction is wanted.
-pub const AWAY_VELOCITIES: StopRule = StopRule { max_corrections: 2, ..ASSEMBLY_VELOCITIES };
+pub const AWAY_VELOCITIES: StopRule =
+    StopRule { linearize: Linearize::Never, max_corrections: 2, ..ASSEMBLY_VELOCITIES };
 /// Velocities of a driven mechanism, as exact as its positions.
 pub const KINEMATICS_VELOCITIES: StopRule = StopRule::exactly(4);
 /// The velocities of a start with pinned bodies, which weigh 1e8 times what they do: what they yield is lost in rounding at first.

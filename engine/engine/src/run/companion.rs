@@ -4,7 +4,6 @@
 use crate::integrate::{self, Integrator, StepRecord};
 use crate::scene::{ConstraintMethod, IntegratorKind};
 use triad_dynamics::constraints::mechanism::Mechanism;
-use triad_dynamics::system::System;
 
 /// Tolerance of the second solution over that of the first: its own error then spoils the estimate by a few parts in a hundred
 /// (measured: docs/ACCURACY.md). With a hundredth, a few parts in a hundred of the runs at loose tolerances were more exact than it.

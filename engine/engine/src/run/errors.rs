@@ -7,12 +7,16 @@ use crate::scene::IntegratorKind;
 use nalgebra::Vector3;
 use serde::Serialize;
 use triad_dynamics::state::{BodyFrame, State};
+use triad_dynamics::system::body::RigidBody;
 
 /// Part of what the errors of all bodies would make of the energy, did each change it the same way, below which they are not taken to cancel.
 const CANCELLED: f64 = 0.05;
 /// Part of the error of all positions, over the length of the mechanism, below which that of directors is not told, since what moves one
 /// body turns another; likewise of velocities.
 const TURNED: f64 = 0.1;
+/// Part of the error of positions at the start of a step below which none within is told: what a series carries along may pass through
+/// zero where the error itself does not.
+const PASSING: f64 = 0.1;
 /// Part of the relative error of the state below which that of forces or moments is looked at more closely: contributions may cancel.
 const SUSPICIOUS: f64 = 0.05;
 /// Part of itself by which the error of each number is then changed.
@@ -78,7 +82,9 @@ impl Simulation {
     /// # Ok::<(), EngineError>(())
     /// ```
     pub fn error_estimate(&self) -> Option<ErrorEstimate> {
-        Some(self.compare(self.better()?))
+        let error = self.compare(self.better()?);
+        let position = error.position.max(PASSING * self.off_at_start());
+        Some(ErrorEstimate { position, ..error })
     }
 
     /// Estimated errors of the reactions at the current state; `None` as for [`Simulation::error_estimate`]. They are computed
@@ -178,6 +184,21 @@ impl Simulation {
             Some(Lost::Stopped(_)) => "the second solution that it is read off cannot go on",
             Some(Lost::TooLarge(_)) | None => "it has grown beyond a twentieth of the mechanism's length",
         }
+    }
+
+    /// The largest error of positions at the start of the last step, m, if the integrator carries errors along.
+    pub(super) fn off_at_start(&self) -> f64 {
+        *self.off_at_start.get_or_init(|| {
+            let Self { integrator, companion: None, mechanism, .. } = self else { return 0.0 };
+            let (system, last) = (&mechanism.system, integrator.last());
+            let mut there = vec![0.0; last.y.len()];
+            if !integrator.error(system, last.t_old, &mut there) {
+                return 0.0;
+            }
+            there.iter_mut().zip(&last.y).for_each(|(x, y)| *x = y - *x);
+            let off = |body: &RigidBody| (body.position(&last.y).r - body.position(&there).r).norm();
+            system.bodies.iter().map(off).fold(0.0, f64::max)
+        })
     }
 
     /// The current state without its error.

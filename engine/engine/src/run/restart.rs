@@ -103,6 +103,7 @@ impl Simulation {
         (self.work, self.max_kinetic_energy) = (0.0, 0.0);
         self.singularities.reset(&mut self.mechanism);
         self.before_branching = None;
+        self.off_at_start.take();
         self.mechanism.set_state(time, y);
         self.mechanism.state.commit_revolutions();
         self.companion = Companion::start(self.kind, &self.mechanism, time, y);

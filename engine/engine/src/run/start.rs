@@ -9,6 +9,7 @@ use crate::error::EngineError;
 use crate::integrate::{self, Integrator};
 use crate::model::{CustomLoad, CustomLoadError, Model};
 use crate::scene::{ConstraintMethod, IntegratorKind, Scene};
+use std::sync::OnceLock;
 use triad_dynamics::constraints::ConstraintError;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::{self, Rank};
@@ -113,6 +114,7 @@ impl Simulation {
             scratch,
             step_limit: u64::MAX,
             occurrences: Vec::new(),
+            off_at_start: OnceLock::new(),
             last_numbers: Vec::new(),
             end,
             counters: explain::RunCounters::default(),

@@ -11,7 +11,6 @@ use std::fmt::Debug;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::ode::{Many, OdeSystem, What};
 use triad_dynamics::system::System;
-use triad_dynamics::system::load::SystemLoad;
 
 /// The mechanism in the coordinates of a chart.
 struct InCoordinates<'a> {

@@ -10,6 +10,8 @@ pub struct Moment {
     /// The error of the state, where it is wanted and known.
     error: Vec<f64>,
     error_known: bool,
+    /// See [`Simulation::off_at_start`].
+    off_at_start: f64,
     /// Work of drivers and of loads without potential since the start, J, where it is wanted.
     work: f64,
 }
@@ -54,9 +56,10 @@ impl RowWriter {
 
     /// Appends the numbers of a moment of this run, one for each column.
     pub fn write(&mut self, moment: &Moment, row: &mut Vec<f64>) {
-        let Moment { snapshot, error, error_known, work } = moment;
+        let Moment { snapshot, error, error_known, off_at_start, work } = moment;
         let Self { outputs, run } = self;
         run.work = *work;
+        run.off_at_start = (*off_at_start).into();
         run.current.take_over(&run.mechanism.system, snapshot, error_known.then_some(error));
         outputs.write(run, row);
     }
@@ -72,10 +75,11 @@ impl Outputs {
 
     /// Puts the current state in the place of another moment, whose memory is used again.
     pub fn keep(&self, run: &Simulation, moment: &mut Moment) {
-        let Moment { snapshot, error, error_known, work } = moment;
+        let Moment { snapshot, error, error_known, off_at_start, work } = moment;
         let wants = |group: fn(&Group) -> bool| self.groups.iter().any(group);
         run.keep(snapshot);
         *error_known = wants(|group| matches!(group, Group::Errors { .. })) && run.keep_error(error);
+        *off_at_start = if *error_known { run.off_at_start() } else { 0.0 };
         *work = if wants(|group| matches!(group, Group::Balance)) {
             run.work + run.work_up_to_current()
         } else {
