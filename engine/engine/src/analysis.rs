@@ -12,16 +12,19 @@ mod assembly;
 mod equilibrium;
 mod flow;
 mod idle;
+mod inertia;
 mod kinematics;
 mod modes;
 mod momenta;
+mod stability;
 mod stage;
 
 pub use assembly::{Assembly, Placement, assemble, assemble_if};
 pub use equilibrium::{Equilibrium, equilibrium, equilibrium_if};
 pub use idle::IdleTurns;
+pub use inertia::TurnsWithoutInertia;
 pub use kinematics::{KinematicState, Kinematics, kinematics, kinematics_if};
-pub use modes::{Mode, ModeShape, Modes, ModesAbout, SteadyMotion, TurnsWithoutInertia, modes, modes_if};
+pub use modes::{Mode, ModeShape, Modes, ModesAbout, SteadyMotion, modes, modes_if};
 #[doc(hidden)]
 pub use stage::Stage;
 pub use wanted::Wanted;

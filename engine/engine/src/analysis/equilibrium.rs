@@ -1,10 +1,11 @@
 //! Static equilibrium: where nothing accelerates.
 
+use super::stability::{self, Stability, Stiffness};
 use super::{AnalysisError, Stage, Wanted};
 use crate::error::EngineError;
 use crate::reactions::report::{Convention, ReactionReport, report};
 use crate::scene::Scene;
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, DVectorView, SymmetricEigen};
 use schemars::JsonSchema;
 use serde::Serialize;
 use triad_dynamics::constraints::mechanism::Mechanism;
@@ -12,14 +13,13 @@ use triad_dynamics::state::BodyFrame;
 
 /// Greatest number of steps of the search, those that were taken back among them.
 const STEPS: usize = 300;
-/// Generalized force, relative to the largest force on a body, below which it counts as zero.
+/// Generalized force along a motion, relative to what the forces on bodies that it moves would make of it if they all pointed along
+/// their ways, below which it counts as zero.
 const BALANCED: f64 = 1e-10;
 /// Part of the largest force that takes part in a balance which rounding leaves.
 const ROUNDED: f64 = 1e-14;
 /// Part of what was left before a step that a step which leads on leaves.
 const STALLED: f64 = 0.1;
-/// Stiffness, relative to the largest or to the largest force over the mechanism's length, that neither holds nor drives away.
-const UNDECIDED: f64 = 1e-7;
 /// Stiffness, relative to the largest, below which the search takes none.
 const SOFTEST: f64 = 1e-9;
 /// Change of forces by a motion, relative to the largest, below which it changes none: what differences leave of zero.
@@ -47,12 +47,15 @@ pub struct Equilibrium {
     /// measured by the displacements of all bodies and by their rotations times the mechanism's length, squared and
     /// added.
     pub least_stiffness: f64,
-    /// Whether every small displacement is driven back; undecided (`None`) where some motion meets no stiffness.
+    /// Whether every small displacement is driven back; undecided (`None`) where some motion meets no stiffness. Where forces have no
+    /// potential, whether no small motion grows, and undecided where something damps it.
     pub stable: Option<bool>,
     /// The bodies, at rest.
     pub bodies: Vec<BodyFrame>,
     /// Reactions at rest.
     pub reactions: ReactionReport,
+    /// What has to be known of the result.
+    pub notes: Vec<String>,
 }
 
 /// Finds a position of rest near the start, drivers and loads held at their start.
@@ -104,6 +107,8 @@ struct Held {
     basis: DMatrix<f64>,
     /// Of the forces on bodies, the largest, N.
     largest: f64,
+    /// The forces, body by body.
+    force: DVector<f64>,
     /// The generalized force.
     along: DVector<f64>,
 }
@@ -113,7 +118,26 @@ impl Held {
         let basis = stage.displacements()?;
         stage.rest();
         let force = stage.forces();
-        Ok(Self { largest: stage.largest(&force), along: basis.tr_mul(&force), basis })
+        Ok(Self { largest: stage.largest(&force), along: basis.tr_mul(&force), force, basis })
+    }
+
+    /// What the forces on bodies would make of each motion, a unit vector in the basis, if they all pointed along their ways, N. A weight
+    /// that a rail carries counts along the rail, and says nothing of what hangs on it.
+    fn carried(&self, motions: &DMatrix<f64>) -> Vec<f64> {
+        let moved = &self.basis * motions;
+        let of = |motion: DVectorView<f64>| {
+            let part = |k: usize| self.force.rows(k, 3).norm() * motion.rows(k, 3).norm();
+            (0..motion.len()).step_by(3).map(part).sum()
+        };
+        moved.column_iter().map(of).collect()
+    }
+
+    /// Whether nothing is left along any of the motions.
+    fn is_balanced(&self, motions: &DMatrix<f64>) -> bool {
+        let left = motions.tr_mul(&self.along);
+        left.iter()
+            .zip(self.carried(motions))
+            .all(|(left, carried)| left.abs() <= BALANCED * carried.max(f64::MIN_POSITIVE))
     }
 
     /// Work of the forces for each unit of a motion, of which the part counts that the joints allow here.
@@ -137,10 +161,10 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
         let (stiffnesses, motions) = eigen(&stiffness);
         let residual = held.along.amax();
         let rounded = residual <= rounding(stage);
-        let balanced = residual <= BALANCED * held.largest.max(f64::MIN_POSITIVE);
+        let balanced = held.is_balanced(&motions);
         // Of rounding no step takes more away; whatever else there is still becomes smaller.
         if balanced || (rounded && residual > STALLED * before) {
-            return found(stage, &held, &stiffnesses, steps);
+            return found(stage, &held, &Stiffness { matrix: stiffness, along: stiffnesses, motions }, steps);
         }
         let next = if residual.is_finite() {
             let nothing = rounding(stage).max(BALANCED * held.largest);
@@ -153,7 +177,12 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
         before = residual;
         let Some(next) = next else {
             if rounded {
-                return found(stage, &held, &stiffnesses, steps);
+                return found(
+                    stage,
+                    &held,
+                    &Stiffness { matrix: stiffness, along: stiffnesses, motions },
+                    steps,
+                );
             }
             let body = stage.foremost(&(&held.basis * &held.along));
             return Err(AnalysisError::NoEquilibrium { iterations: steps, residual, body });
@@ -187,22 +216,27 @@ pub(super) fn largest_part(stage: &Stage) -> f64 {
 fn found(
     stage: &mut Stage,
     held: &Held,
-    stiffnesses: &DVector<f64>,
+    stiffness: &Stiffness,
     iterations: usize,
 ) -> Result<Equilibrium, AnalysisError> {
     stage.rest();
-    let least = stiffnesses.iter().fold(f64::INFINITY, |a, b| a.min(*b));
-    // Where no motion meets any stiffness, that of the forces themselves tells what is none.
-    let stiffest = stiffnesses.amax().max(stage.largest_force() / stage.mechanism.system.length);
-    let clear = least.abs() > UNDECIDED * stiffest;
+    let least = stiffness.along.iter().fold(f64::INFINITY, |a, b| a.min(*b));
+    let Stability { stable, note } =
+        stability::judge(stage, &held.basis, stiffness, &held.carried(&stiffness.motions));
+    stage.rest();
+    let mut notes: Vec<String> = note.into_iter().collect();
+    if stage.mechanism.system.loads.iter().any(|load| load.dry_friction().is_some()) {
+        notes.push("dry friction is left out: where it holds, positions beside this one are positions of rest as well".to_owned());
+    }
     let reactions = report(&stage.accelerate().multipliers, Convention::default());
     Ok(Equilibrium {
         iterations,
         residual: held.along.amax(),
         least_stiffness: if least.is_finite() { least } else { 0.0 },
-        stable: if stiffnesses.is_empty() { Some(true) } else { clear.then_some(least > 0.0) },
+        stable,
         bodies: stage.frames(),
         reactions: reactions.map_err(EngineError::from)?,
+        notes,
     })
 }
 

@@ -1,15 +1,14 @@
 //! Small vibrations about a position at rest: eigenfrequencies and mode shapes.
 
-mod inertia;
 mod pencil;
 mod steady;
 
-pub use inertia::TurnsWithoutInertia;
+use super::inertia::TurnsWithoutInertia;
 pub use steady::SteadyMotion;
 
+use super::inertia::{self, Inertia};
 use super::{AnalysisError, Stage, Wanted, equilibrium};
 use crate::scene::Scene;
-use inertia::Inertia;
 use nalgebra::{Complex, ComplexField, DMatrix, DVector};
 use pencil::{Eigen, Pencil, solve};
 use schemars::JsonSchema;

@@ -123,12 +123,15 @@ pub(in crate::cli) fn equilibrium(source: &Source, json: bool) -> Result<Outcome
     let verdict = match found.stable {
         Some(true) => "stable",
         Some(false) => "unstable: the least touch leaves it",
-        None => "undecided: some motion meets no stiffness",
+        None => "whether it is stable is undecided",
     };
     print_line(&format!("{}: equilibrium after {} steps, {verdict}", scene.name, found.iterations));
     let scale = Scale::of(&found.bodies, &found.reactions);
     scale.print_bodies(&scene, &found.bodies);
     scale.print_reactions(&found.reactions);
+    for note in &found.notes {
+        print_line(&format!("  note: {note}"));
+    }
     Ok(Outcome::Done)
 }
 
