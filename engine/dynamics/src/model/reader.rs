@@ -240,8 +240,8 @@ impl ModelReader<'_> {
             Motion::Expression { .. } => Vec::new(),
         };
         finite(&numbers, &self.at(key))?;
-        let curve = Curve::new(motion).map_err(|error| self.wrong(key, error.to_string()))?;
-        match &curve {
+        let mut curve = Curve::new(motion).map_err(|error| self.wrong(key, error.to_string()))?;
+        match &mut curve {
             Curve::Formula(formula) => match formula.undefined_until(self.duration) {
                 Some(time) => {
                     let reason = format!(
@@ -250,7 +250,10 @@ impl ModelReader<'_> {
                     );
                     Err(self.wrong(key, reason))
                 }
-                None => Ok(curve),
+                None => {
+                    formula.find_wakes(self.duration);
+                    Ok(curve)
+                }
             },
             Curve::Polynomial(_) | Curve::Harmonic { .. } | Curve::Pieces { .. } => Ok(curve),
         }

@@ -13,6 +13,7 @@ mod integrators;
 mod parts;
 mod pivots;
 mod problems;
+mod pushed;
 mod radau;
 mod references;
 mod series;

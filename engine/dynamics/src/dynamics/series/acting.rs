@@ -82,6 +82,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         std::iter::successors(Some(self.next_break), next).take(most).take_while(|&t| t < end).count()
     }
 
+    /// Whether a part of more than `part` of what a prescribed function does within h is in terms that a motion up to an order knows
+    /// nothing of: those of forces are two orders lower.
+    pub(super) fn prescribed_goes_on(&self, h: f64, order: usize, part: f64) -> bool {
+        self.prescribed.goes_on(h, order, part) || self.loads.goes_on(h, order.saturating_sub(2), part)
+    }
+
     /// Whether prescribed functions are, a time h after the point of expansion, what their series say, but for a
     /// relative error.
     pub(super) fn meets_prescribed(&self, h: f64, time: f64, error: f64) -> bool {

@@ -6,8 +6,8 @@ use super::bodies::{Bodies, LanePlace};
 use super::constraints::AngleSeries;
 use super::lanes::LaneVector;
 use super::recurrence::{
-    Quads, Vectors, dot, product_with_rate, quad, quotient, rate, root, scaled, scaled_quads, square, value,
-    vector_value,
+    Quads, Vectors, dot, kept_and_left, product_with_rate, quad, quotient, rate, root, scaled, scaled_quads,
+    square, value, vector_value,
 };
 use crate::model::motion::VectorCurve;
 use crate::model::{BodyRef, ForceLaw};
@@ -256,6 +256,17 @@ impl Loads {
                     let exact = drive.at(time)[0];
                     (exact - value(&law.drive, h)).abs() <= error * (1.0 + exact.abs())
                 })
+            }
+        })
+    }
+
+    /// Whether a part of more than `part` of what a prescribed force does within h is in terms above an order.
+    pub fn goes_on(&self, h: f64, order: usize, part: f64) -> bool {
+        let goes_on = |[kept, left]: [f64; 2]| left > part * kept;
+        self.list.iter().any(|load| match load {
+            Load::Given { local, .. } => goes_on(kept_and_left(local.iter().map(|x| x.norm()), order, h)),
+            Load::Spring { law, .. } | Load::Torsion { law, .. } | Load::Slider { law, .. } => {
+                goes_on(kept_and_left(law.drive.iter().map(|x| x.abs()), order, h))
             }
         })
     }

@@ -178,6 +178,19 @@ pub fn value(series: &[f64], tau: f64) -> f64 {
     series.iter().rev().fold(0.0, |sum, c| sum * tau + c)
 }
 
+/// The sums of the sizes of the terms of a series at τ, its first left out: of those up to `order`, and of the others.
+pub fn kept_and_left(sizes: impl Iterator<Item = f64>, order: usize, tau: f64) -> [f64; 2] {
+    let (mut sums, mut power) = ([0.0; 2], 1.0);
+    for (k, size) in sizes.enumerate().skip(1) {
+        power *= tau;
+        // Of a step without end a term is none if its coefficient is.
+        if size > 0.0 {
+            sums[usize::from(k > order)] += size * power;
+        }
+    }
+    sums
+}
+
 /// The value at τ of a series of vectors.
 #[inline(always)]
 pub fn vector_value(series: &[Vector3<f64>], tau: f64) -> Vector3<f64> {

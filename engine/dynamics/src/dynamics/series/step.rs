@@ -15,6 +15,9 @@ const MIN_ORDER: usize = 8;
 /// Distance of a step's end from its constraints, or of a prescribed function from its series, in tolerances, above which the
 /// step is halved.
 const MAX_VIOLATION: f64 = 100.0;
+/// Part of what a prescribed function does within a step, in terms that the step leaves out, from which on they are looked at: it may
+/// begin like a high power of time, and low terms of the motion, which choose the step, know nothing of it.
+const GOES_ON: f64 = 0.01;
 /// Most halvings of a step.
 const MAX_REJECTED: u64 = 12;
 /// The most that a joint angle turns in a step, rad: less than half a turn, so that whole turns can be counted from the
@@ -163,7 +166,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let again = self.expand_unless_known(simd, plan, allowance, left, end < plan.end);
         let expanded = self.expansion.order;
         self.find_power(expanded);
-        let (natural, order) = self.reach(expanded, allowance);
+        let (natural, order) = self.reach_unless_driven(expanded, allowance, left);
         if plan.dry_run {
             return SeriesStep {
                 h: natural,
@@ -244,6 +247,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 && !plan.dry_run
                 && k > MIN_ORDER
                 && s.reached(k - 1, allowance).min(s.reached(k, allowance)) >= left
+                && !s.prescribed_goes_on(left, k, GOES_ON)
         });
         self.expansion.resolving = self.resolving;
         false
@@ -352,6 +356,30 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 power = 0.0;
             }
             next = previous;
+        }
+        best
+    }
+
+    /// The same where prescribed functions go on in terms that would be left out: then none of these may be larger than the
+    /// tolerance allows.
+    #[inline(always)]
+    fn reach_unless_driven(&self, order: usize, allowance: [f64; 2], left: f64) -> (f64, usize) {
+        let (h, cut) = self.reach(order, allowance);
+        if cut == order || !self.prescribed_goes_on(h.min(left), cut, GOES_ON) {
+            return (h, cut);
+        }
+        self.reach_with_all(order, allowance)
+    }
+
+    /// The longest step that two successive terms allow and for which no term above them is too large.
+    fn reach_with_all(&self, order: usize, allowance: [f64; 2]) -> (f64, usize) {
+        let (mut best, mut all) = ((0.0, order), f64::INFINITY);
+        for k in (2..order).rev() {
+            let h = self.reached(k, allowance).min(self.reached(k + 1, allowance)).min(all);
+            if h > best.0 {
+                best = (h, k + 1);
+            }
+            all = all.min(self.reached(k + 1, allowance));
         }
         best
     }

@@ -32,10 +32,11 @@ impl Curve {
         }
     }
 
-    /// The first time after t at which another piece begins, s, or infinity.
+    /// The first time after t at which another piece begins, or a formula begins to change, s, or infinity.
     pub fn next_break(&self, t: f64) -> f64 {
         match self {
-            Self::Polynomial(_) | Self::Harmonic { .. } | Self::Formula(_) => f64::INFINITY,
+            Self::Polynomial(_) | Self::Harmonic { .. } => f64::INFINITY,
+            Self::Formula(formula) => formula.next_wake(t),
             Self::Pieces { knots, .. } => {
                 // Nothing begins at the first knot: its piece holds before it, too.
                 let next = knots.partition_point(|&knot| knot <= t).max(1);

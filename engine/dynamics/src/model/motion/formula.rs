@@ -5,10 +5,15 @@ use triad_scene::expression::{Expression, ExpressionError, Function, Node};
 
 /// Moments of a run at which a formula is tried before it starts.
 const TRIED: u32 = 1_000;
+/// Part of its largest value within which a formula does not change but for rounding, and so many of those moments for which it has
+/// to stay so.
+const QUIET: f64 = 1e-15;
+const LONG: u32 = 10;
 /// Halvings that find the end of a formula's domain between two of them to the last digit.
 const HALVINGS: u32 = 60;
-/// Greatest whole exponent that is multiplied out: then the base may be zero.
-const MAX_WHOLE: f64 = 64.0;
+/// Greatest whole exponent that is multiplied out: then the base may be zero; and that above which it is by squares.
+const MAX_WHOLE: f64 = 1e6;
+const MANY: f64 = 64.0;
 
 /// Coefficients of a power series.
 type Series = [f64; MAX_TERMS];
@@ -17,6 +22,8 @@ type Series = [f64; MAX_TERMS];
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeFormula {
     root: Node,
+    /// Where it begins to change after it did not, s.
+    wakes: Vec<f64>,
 }
 
 /// Why a text is no function of time that can be prescribed.
@@ -45,7 +52,7 @@ impl TimeFormula {
         let root = folded(Expression::parse(text, &["t"])?.into_root());
         match not_smooth(&root) {
             Some(function) => Err(TimeFormulaError::NotSmooth { function }),
-            None => Ok(Self { root }),
+            None => Ok(Self { root, wakes: Vec::new() }),
         }
     }
 
@@ -86,6 +93,33 @@ impl TimeFormula {
             before = (t, now);
         }
         None
+    }
+}
+
+impl TimeFormula {
+    /// Finds where it begins to change after it did not for a hundredth of the time from 0 to `end`, s, as far as a thousand moments
+    /// tell: a series before a pulse knows nothing of it, and steps would pass it.
+    pub fn find_wakes(&mut self, end: f64) {
+        self.wakes.clear();
+        let moment = |k: u32| end * f64::from(k) / f64::from(TRIED);
+        let values: Vec<f64> = (0..=TRIED).map(|k| expand(&self.root, moment(k), 1)[0]).collect();
+        let rounding = QUIET * values.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+        let (mut low, mut high, mut quiet) = (f64::INFINITY, f64::NEG_INFINITY, 0);
+        for (k, value) in (0..).zip(values) {
+            (low, high) = (low.min(value), high.max(value));
+            if high - low > rounding {
+                if quiet > LONG {
+                    self.wakes.push(moment(k - 1));
+                }
+                (low, high, quiet) = (value, value, 0);
+            }
+            quiet += 1;
+        }
+    }
+
+    /// The first of these moments after t, s, or infinity.
+    pub fn next_wake(&self, t: f64) -> f64 {
+        self.wakes.iter().copied().find(|wake| *wake > t).unwrap_or(f64::INFINITY)
     }
 }
 
@@ -255,10 +289,18 @@ fn power(a: &Node, b: &Node, t: f64, terms: usize) -> Series {
     let mut out = [0.0; MAX_TERMS];
     out[0] = 1.0;
     let whole = out;
-    let mut left = exponent.abs();
+    let (mut square, mut left) = (base, exponent.abs());
     while left > 0.0 {
-        out = product(&out, &base, terms);
-        left -= 1.0;
+        if left > MANY {
+            if left % 2.0 == 1.0 {
+                out = product(&out, &square, terms);
+            }
+            square = product(&square, &square, terms);
+            left = (0.5 * left).floor();
+        } else {
+            out = product(&out, &square, terms);
+            left -= 1.0;
+        }
     }
     if exponent < 0.0 { quotient(&whole, &out, terms) } else { out }
 }

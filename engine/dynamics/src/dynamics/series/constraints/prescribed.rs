@@ -6,7 +6,7 @@
 
 use crate::dynamics::series::bodies::{Bodies, FeatureSlot, LanePlace};
 use crate::dynamics::series::lanes::LaneVector;
-use crate::dynamics::series::recurrence::{Vectors, product_with_rate, value, vector_value};
+use crate::dynamics::series::recurrence::{Vectors, kept_and_left, product_with_rate, value, vector_value};
 use crate::model::BodyRef;
 use crate::model::motion::VectorCurve;
 use crate::system::System;
@@ -121,6 +121,14 @@ impl Prescribed {
             let exact = n.curve.at(time)[0];
             (exact - value(&n.series, h)).abs() <= error * (1.0 + exact.abs())
         })
+    }
+
+    /// Whether a part of more than `part` of what one of them does within h is in terms above an order.
+    pub fn goes_on(&self, h: f64, order: usize, part: f64) -> bool {
+        let features =
+            self.features.iter().map(|f| kept_and_left(f.local.iter().map(|x| x.norm()), order, h));
+        let numbers = self.numbers.iter().map(|n| kept_and_left(n.series.iter().map(|x| x.abs()), order, h));
+        features.chain(numbers).any(|[kept, left]| left > part * kept)
     }
 
     /// Finds what features have in order m beyond C₀ Q_m, times a factor; `coefficient(b, i)` is Q_i of bundle b.

@@ -1,0 +1,131 @@
+//! Prescribed forces that low terms of a series know nothing of: the series must not step over them.
+
+#![allow(clippy::unwrap_used)]
+
+use serde_json::json;
+use triad_engine::run::Simulation;
+use triad_engine::scene::{IntegratorKind, Scene};
+
+/// A body of 2 kg on a rail, pushed by f(t): x = v₀ t + g t²/2 + ∫ (t − s) f(s) ds / m. Forces that begin like a high power of time,
+/// that are pulses, and that vibrate: low terms of the motion, which choose the step elsewhere, know nothing of them.
+#[test]
+fn forces_that_the_first_terms_know_nothing_of_are_followed() {
+    type Force = fn(f64) -> f64;
+    let forces: [(&str, Force); 9] = [
+        ("1-cos(3*t)", |t| 1.0 - libm::cos(3.0 * t)),
+        ("2*sin(3*t)^3", |t| 2.0 * cube(libm::sin(3.0 * t))),
+        ("t^2*exp(-3*t)", |t| t * t * libm::exp(-3.0 * t)),
+        ("t^9", |t| cube(cube(t))),
+        ("50*exp(-((t-2.537)/0.2)^2)", |t| 50.0 * libm::exp(-25.0 * (t - 2.537) * (t - 2.537))),
+        ("50*exp(-((t-2.537)/0.02)^2)", |t| 50.0 * libm::exp(-2500.0 * (t - 2.537) * (t - 2.537))),
+        ("5*sin(2*t)^61", |t| 5.0 * libm::pow(libm::sin(2.0 * t).abs(), 61.0) * libm::sin(2.0 * t).signum()),
+        ("sin(3*t)^66", |t| libm::pow(libm::sin(3.0 * t).abs(), 66.0)),
+        ("sin(3000*t)", |t| libm::sin(3000.0 * t)),
+    ];
+    for (text, force) in forces {
+        let moved = 0.5 * 4.0 + quadrature(|s| (4.0 - s) * force(s)) / 2.0;
+        for gravity in [0.0, -9.81] {
+            for tolerance in [1e-3, 1e-6, 1e-9, 1e-12] {
+                let value = json!({
+                    "name": "pushed", "gravity": [gravity, 0, 0],
+                    "bodies": [{"name": "A", "mass": 2, "inertia": {"principal": [1, 1.2, 1.3]}}],
+                    "joints": [{"name": "J", "type": "prismatic", "body_i": "ground", "body_j": "A", "point": [0, 0, 0], "axis": [1, 0, 0],
+                                "start": {"slide": 0, "speed": 0.5}}],
+                    "loads": [{"name": "F", "type": "slider", "joint": "J", "force": {"kind": "expression", "value": text}}],
+                    "simulation": {"duration": 4, "tolerance": tolerance, "integrator": "taylor"}
+                });
+                let mut run = Simulation::new(&Scene::from_json(&value.to_string()).unwrap()).unwrap();
+                run.advance_to(4.0).unwrap();
+                let error = (run.frame().bodies[0].position[0] - moved - 8.0 * gravity).abs();
+                // Where vibrations within the tolerance add up to more than the mechanism, it is told that nothing is known.
+                let Some(told) = run.error_estimate() else { continue };
+                let told = told.position;
+                assert!(
+                    error < 10.0 * told + 1e-11 && error < 1e3 * tolerance * (1.0 + moved.abs()),
+                    "{text}, gravity {gravity}, {tolerance:e}: {error:e}, told {told:e}"
+                );
+            }
+        }
+    }
+}
+
+fn cube(x: f64) -> f64 {
+    x * x * x
+}
+
+/// ∫ f from 0 to 4, by Gauss' rule of two points in each of many parts.
+fn quadrature(f: impl Fn(f64) -> f64) -> f64 {
+    let parts = 400_000;
+    let half = 2.0 / f64::from(parts);
+    let off = half / f64::sqrt(3.0);
+    let middles = (0..parts).map(|k| f64::from(2 * k + 1) * half);
+    middles.map(|middle| half * (f(middle - off) + f(middle + off))).sum()
+}
+
+/// Two hinges of an arm at rest in space, one with a motor whose torque begins like t²; and two pendulums, one of which hangs at rest
+/// with such a torque: beside `radau`.
+#[test]
+fn mechanisms_at_rest_follow_torques_that_begin_like_a_square() {
+    let torque = |size: f64, rate: f64| json!({"kind": "harmonic", "mean": size, "amplitude": -size, "frequency": rate, "phase": std::f64::consts::FRAC_PI_2});
+    let arm = json!({
+        "name": "arm", "gravity": [0, 0, 0],
+        "bodies": [
+            {"name": "A", "mass": 2, "inertia": {"tensor": [[0.05, 0.01, -0.004], [0.01, 0.08, 0.006], [-0.004, 0.006, 0.06]]},
+             "center_of_mass": [0.3, 0.05, -0.1]},
+            {"name": "B", "mass": 1, "inertia": {"tensor": [[0.02, -0.003, 0.001], [-0.003, 0.03, 0.004], [0.001, 0.004, 0.025]]},
+             "center_of_mass": [0.2, -0.05, -0.2], "position": [0.6, 0, 0.1]}
+        ],
+        "joints": [
+            {"name": "J1", "type": "revolute", "body_i": "ground", "body_j": "A", "point": [0, 0, 0], "axis": [0.2, 1, 0.3],
+             "start": {"angle": 0.4}},
+            {"name": "J2", "type": "revolute", "body_i": "A", "body_j": "B", "point": [0.6, 0, 0.1], "axis": [1, 0.1, -0.2],
+             "start": {"angle": -0.3}}
+        ],
+        "loads": [{"name": "motor", "type": "torsion", "joint": "J2", "torque": torque(0.02, 3.0)}],
+        "simulation": {"duration": 2}
+    });
+    let body = |name: &str, x: f64| {
+        json!({"name": name, "mass": 1.5, "inertia": {"principal": [0.05, 0.01, 0.05]}, "center_of_mass": [0, -0.4, 0],
+               "position": [x, 0, 0]})
+    };
+    let pendulums = json!({
+        "name": "two", "gravity": [0, -9.81, 0],
+        "bodies": [body("A", 0.0), body("B", 3.0)],
+        "joints": [
+            {"name": "J", "type": "revolute", "body_i": "ground", "body_j": "A", "point": [0, 0, 0], "axis": [0, 0, 1]},
+            {"name": "K", "type": "revolute", "body_i": "ground", "body_j": "B", "point": [3, 0, 0], "axis": [0, 0, 1],
+             "start": {"angle": 1, "rate": 0.5}}
+        ],
+        "loads": [{"name": "F", "type": "torsion", "joint": "J", "torque": torque(0.01, 6.0)}],
+        "simulation": {"duration": 4}
+    });
+    for value in [arm, pendulums] {
+        let scene = |integrator, tolerance| {
+            let mut scene = Scene::from_json(&value.to_string()).unwrap().tolerance(tolerance);
+            scene.simulation.integrator = integrator;
+            scene
+        };
+        let exact = scene(IntegratorKind::Radau, 1e-12);
+        for tolerance in [1e-3, 1e-6, 1e-9] {
+            let off = difference(&scene(IntegratorKind::Taylor, tolerance), &exact);
+            assert!(off < 1e2 * tolerance, "{}, {tolerance:e}: {off:e}", exact.name);
+        }
+    }
+}
+
+/// Largest difference of centres of mass between two runs at 20 times.
+fn difference(a: &Scene, b: &Scene) -> f64 {
+    let (mut first, mut second) = (Simulation::new(a).unwrap(), Simulation::new(b).unwrap());
+    let mut largest: f64 = 0.0;
+    for k in 1..=20 {
+        let t = f64::from(k) / 20.0 * a.simulation.duration;
+        first.advance_to(t).unwrap();
+        second.advance_to(t).unwrap();
+        for (x, y) in first.frame().bodies.iter().zip(&second.frame().bodies) {
+            for c in 0..3 {
+                largest = largest.max((x.position[c] - y.position[c]).abs());
+            }
+        }
+    }
+    largest
+}
