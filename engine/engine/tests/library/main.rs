@@ -24,4 +24,5 @@ mod small_motions;
 mod snapshots;
 mod solution;
 mod steady;
+mod steady_motions;
 mod told_of_joints;

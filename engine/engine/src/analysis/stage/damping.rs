@@ -25,8 +25,8 @@ impl Stage {
 
     /// What resists motions along a basis at any speed, as rows: of each damped load its unit force, of length one where moments are
     /// taken over the mechanism's length, and the
-    /// gyroscopic matrix relative to the largest sum of what bodies contribute to an entry, since they cancel where nothing
-    /// resists. What none of them feels goes on for ever, however strong the others are.
+    /// gyroscopic matrix relative to what its entries are made of, since that cancels where nothing resists. What none of them feels
+    /// goes on for ever, however strong the others are.
     pub fn resistance(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
         let mut rows: Vec<RowDVector<f64>> = Vec::new();
         let length = self.mechanism.system.length;
@@ -35,10 +35,9 @@ impl Stage {
             let size = unit.iter().enumerate().map(part).fold(0.0, libm::hypot);
             rows.push((basis.tr_mul(unit) / size).transpose());
         });
-        let wrenches = self.gyroscopic_wrenches(basis);
-        let largest = lengths(basis).tr_mul(&lengths(&wrenches)).amax();
+        let largest = self.gyroscopic_parts(basis);
         if largest > 0.0 {
-            rows.extend(basis.tr_mul(&wrenches).row_iter().map(|row| row / largest));
+            rows.extend(self.gyroscopic(basis).row_iter().map(|row| row / largest));
         }
         if rows.is_empty() { DMatrix::zeros(0, basis.ncols()) } else { DMatrix::from_rows(&rows) }
     }
@@ -64,7 +63,21 @@ impl Stage {
         basis.tr_mul(&self.gyroscopic_wrenches(basis))
     }
 
-    /// The same as wrenches body by body, a column for each motion: they are quadratic, so that differences are exact.
+    /// The largest sum of the parts of an entry, N s/m: m 2 |Ω| |v| |v'| and J (|Ω| + |n|) |w| |w'| of each body, J its greatest moment of
+    /// inertia and n the rate of its spin. Those of a body that turns about a principal axis cancel within its wrench already.
+    fn gyroscopic_parts(&self, basis: &DMatrix<f64>) -> f64 {
+        let sizes = lengths(basis);
+        let mut parts = sizes.clone();
+        let turning = self.flow.turning.norm();
+        for (index, body) in self.mechanism.system.bodies.iter().enumerate() {
+            let spin = self.flow.spins.get(index).map_or(0.0, |spin| spin.rate.abs());
+            parts.row_mut(2 * index).scale_mut(2.0 * body.mass * turning);
+            parts.row_mut(2 * index + 1).scale_mut(body.principal.max() * (turning + spin));
+        }
+        sizes.tr_mul(&parts).amax()
+    }
+
+    /// The gyroscopic forces as wrenches body by body, a column for each motion: they are quadratic, so that differences are exact.
     fn gyroscopic_wrenches(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
         let mut out = DMatrix::zeros(basis.nrows(), basis.ncols());
         for k in 0..basis.ncols() {
@@ -84,7 +97,7 @@ impl Stage {
     }
 }
 
-/// Length of each velocity and angular velocity, or force and moment.
+/// Length of each velocity and angular velocity.
 fn lengths(columns: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(columns.nrows() / 3, columns.ncols(), |i, j| columns.fixed_view::<3, 1>(3 * i, j).norm())
 }
