@@ -22,8 +22,10 @@ use triad_dynamics::system::natural::NaturalCoordinates;
 
 /// Step of differences, in lengths of what they differ: of order four, they are then right to about 1e-13.
 const STEP: f64 = 1e-3;
+/// Way to a position beside, in lengths of the mechanism.
+const BESIDE: f64 = 0.05;
 /// Part of the mechanism's length below which a spring has no length.
-const NO_LENGTH: f64 = 1e-6;
+pub const NO_LENGTH: f64 = 1e-6;
 
 /// A mechanism held at one position.
 #[derive(Clone, Debug)]
@@ -285,6 +287,21 @@ impl Stage {
         state.commit_revolutions();
         state.set_velocities(system, &q_dot);
         state.position_violation(system)
+    }
+
+    /// Moves to another position that joints and drivers allow, one that is nothing special; the first stays as it is.
+    ///
+    /// # Errors
+    ///
+    /// As [`Stage::tangent`].
+    pub fn move_beside(&mut self, position: usize) -> Result<(), AnalysisError> {
+        if position > 0 {
+            let basis = self.tangent()?;
+            let along = DVector::from_fn(basis.ncols(), |k, _| libm::sin((3 * k + position) as f64));
+            let size = BESIDE * self.mechanism.system.length / along.norm().max(1.0);
+            self.assemble(self.moved(&(basis * along), size));
+        }
+        Ok(())
     }
 
     /// Angles of joints at the held position, whole turns among them.

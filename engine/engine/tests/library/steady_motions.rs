@@ -59,3 +59,66 @@ fn a_free_body_about_its_middle_axis_has_seven_modes() {
         assert_eq!(kinds(&scene), expected, "{frame:?}");
     }
 }
+
+/// Two rotors on one axis with an unstressed torsion spring between them turn on for ever, free or on a bearing: the angle of the
+/// spring is rounding, and so is its moment, however stiff it is.
+#[test]
+fn an_unstressed_spring_between_two_rotors_is_steady() {
+    for stiffness in [5.0, 50.0, 5e3, 5e6] {
+        for frame in axes() {
+            let axis = frame[0].as_slice();
+            let bodies = json!([
+                body("one", [0.2, 0.2, 0.4], frame, (0.0, 3.0)),
+                body("two", [0.1, 0.1, 0.15], frame, (0.5, 3.0))
+            ]);
+            let hinge = json!({"name": "hinge", "type": "revolute", "body_i": "one", "body_j": "two",
+                "point": [0, 0, 0], "axis": axis});
+            let bearing = json!({"name": "bearing", "type": "revolute", "body_i": "ground", "body_j": "one",
+                "point": [0, 0, 0], "axis": axis});
+            for joints in [json!([hinge]), json!([hinge, bearing])] {
+                let scene = json!({"name": "two rotors", "gravity": [0, 0, 0], "bodies": bodies, "joints": joints,
+                    "loads": [{"type": "torsion", "name": "spring", "joint": "hinge", "stiffness": stiffness}]});
+                let found = steady(&scene);
+                assert!(found.is_ok(), "{stiffness} {frame:?} {found:?}");
+            }
+        }
+    }
+}
+
+/// A cart on rails with a spring, driven by `force` at its joint or by `motion`.
+fn cart(force: &Value, motion: Option<&Value>) -> Value {
+    let mut scene = json!({"name": "cart", "bodies": [{"name": "cart", "mass": 1}, {"name": "tow", "mass": 1}],
+        "joints": [{"name": "rail", "type": "prismatic", "body_i": "ground", "body_j": "cart", "point": [0, 0, 0], "axis": [1, 0, 0]},
+            {"name": "tows", "type": "prismatic", "body_i": "cart", "body_j": "tow", "point": [0, 0, 0], "axis": [1, 0, 0]}],
+        "loads": [{"type": "slider", "name": "spring", "joint": "tows", "stiffness": 1, "force": force}]});
+    if let Some(motion) = motion {
+        scene["drivers"] = json!([{"type": "slide", "name": "driver", "joint": "rail", "motion": motion}]);
+    }
+    scene
+}
+
+/// Forces and drivers with any period, or that change late, are no part of a steady motion; constant ones are.
+#[test]
+fn what_is_prescribed_and_changes_is_not_steady() {
+    let none = json!({"kind": "constant", "value": 0.0});
+    let still = json!({"kind": "constant", "value": 0.0});
+    for frequency in [1.0, 2.0, 10.0, 0.7, 1.0 / 0.7, 50.0, 100.0] {
+        let omega = std::f64::consts::TAU * frequency;
+        let force = json!({"kind": "harmonic", "amplitude": 2.0, "frequency": omega});
+        let found = steady(&cart(&force, Some(&still)));
+        assert!(matches!(found, Err(AnalysisError::NoSteadyMotion { .. })), "{frequency} Hz: {found:?}");
+        let motion = json!({"kind": "expression", "value": format!("0.1*sin({omega}*t)^2")});
+        let found = steady(&cart(&none, Some(&motion)));
+        assert!(matches!(found, Err(AnalysisError::NoSteadyMotion { .. })), "{frequency} Hz: {found:?}");
+    }
+    let late = json!({"kind": "smooth-step", "from": 0.0, "to": 2.0, "start": 6.0, "end": 6.5});
+    for scene in [cart(&late, Some(&still)), cart(&none, Some(&late))] {
+        let found = steady(&scene);
+        assert!(matches!(found, Err(AnalysisError::NoSteadyMotion { .. })), "{found:?}");
+    }
+    let constant = json!({"kind": "constant", "value": 2.0});
+    let ramp = json!({"kind": "ramp", "rate": 3.0});
+    for scene in [cart(&constant, Some(&still)), cart(&constant, Some(&ramp)), cart(&none, Some(&ramp))] {
+        assert!(steady(&scene).is_ok());
+    }
+}

@@ -140,6 +140,10 @@ export const toldOfRuns: Record<string, string> = {
     "nahe dem Anfang gibt es keine stationäre Bewegung: „{name}“ lässt die Körper ihre Plätze in einem gleichförmig drehenden und gleitenden System nicht behalten (ein Körper darf sich nur um eine Achse drehen, um die seine Trägheitsmomente gleich sind)",
   'there is no steady motion near the start: where joints and drivers leave the bodies free to move as a whole, loads drive or brake them: a generalized force of {force} N is left there, most of it on body "{body}"':
     "nahe dem Anfang gibt es keine stationäre Bewegung: Wo Gelenke und Antriebe die Körper als Ganzes frei lassen, treiben oder bremsen sie Lasten: Es bleibt dort eine verallgemeinerte Kraft von {force} N, das meiste davon an Körper „{body}“",
+  'there is no steady motion near the start: "{name}" does not go on as at the start: it is off by {by} after {time} s':
+    "nahe dem Anfang gibt es keine stationäre Bewegung: „{name}“ geht nicht weiter wie am Anfang: Nach {time} s weicht es um {by} ab",
+  'there is no steady motion near the start: what load "{load}" prescribes after {time} s is not what it prescribes at the start':
+    "nahe dem Anfang gibt es keine stationäre Bewegung: Was Last „{load}“ nach {time} s vorgibt, ist nicht, was sie am Anfang vorgibt",
   'body "{body}" is free to spin about its axis through {joints}, and at t = {time} s a moment of {moment} N m turns it there: how it spins is not a matter of geometry alone':
     "Körper „{body}“ dreht sich frei um seine Achse durch {joints}, und bei t = {time} s dreht ihn dort ein Moment von {moment} N m: Wie er sich dreht, ist keine Frage der Geometrie allein",
   'body "{body}" cannot be kept in place: there is no such body':

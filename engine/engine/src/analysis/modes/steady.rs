@@ -1,8 +1,10 @@
 //! The steady motion near the start, if there is one.
 
+mod lasting;
+
 use crate::analysis::momenta::{self, Fields, MISSED, Momenta, Solutions, energetic};
 use crate::analysis::{AnalysisError, Stage, equilibrium};
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DMatrix, DVector};
 use schemars::JsonSchema;
 use serde::Serialize;
 use triad_dynamics::constraints::violation;
@@ -15,10 +17,6 @@ const STEPS: usize = 10;
 const NEAR: f64 = 0.01;
 /// Positions that tell what holds at all of them: a point on a rod passes three translations but for its directions at three.
 const POSITIONS: usize = 4;
-/// Way to each, in lengths of the mechanism.
-const BESIDE: f64 = 0.05;
-/// Angle or, in lengths of the mechanism, way after which it is seen whether the motion is steady.
-const LATER: f64 = 0.7;
 
 /// Freedoms times bodies times squared fields that are not too many: some seconds.
 const MOST_WORK: usize = 60_000_000;
@@ -91,7 +89,7 @@ pub fn find(stage: &mut Stage) -> Result<(SteadyMotion, Unfelt), AnalysisError> 
             .collect(),
     };
     fits(stage)?;
-    lasts(stage)?;
+    lasting::lasts(stage)?;
     stage.rest();
     Ok((told, unfelt))
 }
@@ -130,7 +128,7 @@ impl Symmetries {
         // What joints or loads let pass at one position alone is no motion of the whole: others tell.
         let (from, turns) = (stage.q.clone(), stage.turns());
         for position in 0..POSITIONS {
-            move_beside(stage, position)?;
+            stage.move_beside(position)?;
             let twists = fields.twists(&stage.places(&stage.q));
             let rows = stage.rows_times(&twists);
             let any = fields.any(start.len(), position);
@@ -203,17 +201,6 @@ impl Symmetries {
         drifts.without(&fields.bracket(&p), MISSED * p.norm());
         Unfelt { translations: &twists * translations, drifts: twists * drifts.free }
     }
-}
-
-/// Moves a stage to another position that joints and drivers allow, one that is nothing special; the first stays as it is.
-fn move_beside(stage: &mut Stage, position: usize) -> Result<(), AnalysisError> {
-    if position > 0 {
-        let basis = stage.tangent()?;
-        let along = DVector::from_fn(basis.ncols(), |k, _| libm::sin((3 * k + position) as f64));
-        let size = BESIDE * stage.mechanism.system.length / along.norm().max(1.0);
-        stage.assemble(stage.moved(&(basis * along), size));
-    }
-    Ok(())
 }
 
 /// Takes a start that all but is a steady motion to that one, be it stable or not: the search that follows goes downhill.
@@ -291,42 +278,4 @@ fn fits(stage: &mut Stage) -> Result<(), AnalysisError> {
         ))),
         _ => Ok(()),
     }
-}
-
-/// Whether the motion goes on as it is: after a while joints and drivers are met, and the forces are those of now, moved along.
-fn lasts(stage: &mut Stage) -> Result<(), AnalysisError> {
-    stage.rest();
-    let now = stage.loads();
-    let length = stage.mechanism.system.length;
-    let flow = &stage.flow;
-    let turning = flow.spins.iter().fold(flow.turning.norm(), |a, spin| a.max(spin.rate.abs()));
-    let time = LATER / turning.max(flow.sliding.norm() / length).max(LATER);
-    let (mut q, mut turned) = (stage.q.clone(), now.clone());
-    let turn = nalgebra::Rotation3::from_scaled_axis(flow.turning * time);
-    for (index, body) in stage.mechanism.system.bodies.iter().enumerate() {
-        body.layout.store(&flow.later(index, &body.layout.position(&stage.q), time), &mut q);
-        for k in [6 * index, 6 * index + 3] {
-            let part = turn * Vector3::new(now[k], now[k + 1], now[k + 2]);
-            turned.fixed_rows_mut::<3>(k).copy_from(&part);
-        }
-    }
-    let y = [q.as_slice(), stage.velocities(&q).as_slice()].concat();
-    stage.mechanism.set_state(stage.time + time, &y);
-    let system = &stage.mechanism.system;
-    let open = violation::measure(system, &stage.mechanism.state);
-    let (worst, changed) = (open.constraints.first().copied(), stage.loads() - &turned);
-    if let Some((id, by)) = worst.filter(|(_, by)| *by > MISSED) {
-        return Err(none(format!(
-            "\"{}\" does not go on as at the start: it is off by {by:.3e} after {time:.3} s",
-            system[id].name
-        )));
-    }
-    if stage.largest(&changed) > (CHANGED * stage.largest(&now)).max(equilibrium::rounding(stage)) {
-        return Err(none(format!(
-            "the forces on body \"{}\" change in the frame that moves along: weight and springs to the ground stay the same \
-             only about an axis along them",
-            stage.foremost(&changed)
-        )));
-    }
-    Ok(())
 }
