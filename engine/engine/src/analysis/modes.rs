@@ -1,15 +1,19 @@
 //! Small vibrations about a position at rest: eigenfrequencies and mode shapes.
 
+mod mode;
 mod pencil;
+mod short_springs;
 mod steady;
 
 use super::inertia::TurnsWithoutInertia;
+pub use mode::{Mode, ModeShape};
 pub use steady::SteadyMotion;
 
 use super::inertia::{self, Inertia};
 use super::{AnalysisError, Stage, Wanted, equilibrium};
 use crate::scene::Scene;
-use nalgebra::{Complex, ComplexField, DMatrix, DVector};
+use mode::{CLEARLY, mode};
+use nalgebra::{Complex, DMatrix, DVector};
 use pencil::{Eigen, Pencil, solve};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -27,8 +31,6 @@ const STIFFLESS: f64 = 1e-11;
 const UNCREEPING: f64 = 1e-13;
 /// Part of the unit force of a damped load that a drift may feel and yet go on for ever.
 const UNDAMPED: f64 = 1e-9;
-/// Relative difference above which two numbers differ by more than rounding.
-const CLEARLY: f64 = 1e-9;
 
 /// The position about which the motion is linearized.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -43,36 +45,6 @@ pub enum ModesAbout {
     /// uniformly, and spin at most about an axis around which they are alike. What drivers leave free has the momenta of the
     /// start.
     Steady,
-}
-
-/// The part of a mode that one body takes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct ModeShape {
-    /// Displacement of the centre of mass at the time at which the largest of all is at its peak, m, in the world's axes or, about a
-    /// steady motion, along those of its frame.
-    pub translation: [f64; 3],
-    /// Rotation vector at that time, rad.
-    pub rotation: [f64; 3],
-    /// Displacement a quarter of a period later but for growth and decay, zero where all bodies move in phase, m.
-    pub translation_later: [f64; 3],
-    /// Rotation vector then, rad.
-    pub rotation_later: [f64; 3],
-}
-
-/// One mode, moving as e^(λt).
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Mode {
-    /// What it does, in a word: `oscillates`, `decays`, `grows` or `drifts`.
-    pub kind: &'static str,
-    /// Frequency, Hz.
-    pub frequency: f64,
-    /// Real part of λ, 1/s: negative where the motion dies away.
-    pub growth: f64,
-    /// Part of critical damping.
-    pub damping_ratio: f64,
-    /// The motion of each body. The component of displacement (m, or rad times the mechanism's length) with the largest amplitude, the
-    /// first of equal ones, is one now and zero a quarter of a period from now: this fixes size, sign and phase.
-    pub shape: Vec<ModeShape>,
 }
 
 /// All modes of a position.
@@ -142,6 +114,7 @@ pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Mod
                 .to_owned(),
         );
     }
+    short_springs::leave_out_held(&mut stage)?;
     let steady = match about {
         ModesAbout::Equilibrium => {
             equilibrium::find(&mut stage)?;
@@ -152,6 +125,7 @@ pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Mod
     };
     let (steady, unfelt) = steady.unzip();
     stage.rest();
+    short_springs::leave_out_jumping(&mut stage, &mut notes);
     let mut basis = stage.tangent()?;
     let freedoms = basis.ncols();
     if let Some(unfelt) = &unfelt {
@@ -356,42 +330,4 @@ fn columns<const N: usize>(parts: [&DMatrix<f64>; N]) -> DMatrix<f64> {
         first += part.ncols();
     }
     out
-}
-
-/// The mode of one solution; its shape is turned in phase so that its largest displacement is one, and now.
-fn mode(value: Complex<f64>, motion: &DVector<Complex<f64>>, length: f64) -> Mode {
-    let still = value.modulus() == 0.0;
-    let kind = match () {
-        () if still => "drifts",
-        () if value.re > CLEARLY * value.modulus() => "grows",
-        () if value.im > 0.0 => "oscillates",
-        () => "decays",
-    };
-    let arc = |k: usize| if k % 6 >= 3 { length } else { 1.0 };
-    // Among equal ones the first, so that rounding does not choose.
-    let mut largest = (f64::MIN_POSITIVE, Complex::new(f64::MIN_POSITIVE, 0.0));
-    for (k, x) in motion.iter().enumerate() {
-        let reach = arc(k) * x.modulus();
-        if reach > largest.0 * (1.0 + CLEARLY) {
-            largest = (reach, x * arc(k));
-        }
-    }
-    let unit = motion.map(|x| x / largest.1);
-    let part = |of: &dyn Fn(Complex<f64>) -> f64, at: usize| -> [f64; 3] {
-        [of(unit[at]), of(unit[at + 1]), of(unit[at + 2])]
-    };
-    let shape = (0..motion.len() / 6).map(|body| ModeShape {
-        translation: part(&|x| x.re, 6 * body),
-        rotation: part(&|x| x.re, 6 * body + 3),
-        // Re x e^(iωt) is −Im x a quarter of a period from now.
-        translation_later: part(&|x| 0.0 - x.im, 6 * body),
-        rotation_later: part(&|x| 0.0 - x.im, 6 * body + 3),
-    });
-    Mode {
-        kind,
-        frequency: value.im.abs() / std::f64::consts::TAU,
-        growth: value.re,
-        damping_ratio: if still { 0.0 } else { -value.re / value.modulus() },
-        shape: shape.collect(),
-    }
 }

@@ -20,6 +20,7 @@ mod parameters;
 mod pure;
 mod scales;
 mod scene_words;
+mod short_springs;
 mod small_motions;
 mod snapshots;
 mod solution;

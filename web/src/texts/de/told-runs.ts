@@ -168,6 +168,10 @@ export const toldOfRuns: Record<string, string> = {
     "Reibung mit einem Beiwert bleibt weg: Um eine Ruhelage hat sie kein lineares Gesetz",
   "friction with a coefficient is left out of the forces; a run of the driven mechanism has it":
     "Reibung mit einem Beiwert fehlt in den Kräften; ein Lauf des angetriebenen Mechanismus hat sie",
+  'spring "{name}" has no length at this position and a force all the same, whose direction jumps there: it has no linear law and is left out; modes about a position where its ends are apart have it':
+    "Feder „{name}“ hat in dieser Lage keine Länge und doch eine Kraft, deren Richtung dort springt: Sie hat kein lineares Gesetz und bleibt weg; Eigenformen um eine Lage, in der ihre Enden auseinander sind, haben sie",
+  'the damping of spring "{name}" is left out: the spring has no length at this position, and so no direction':
+    "Die Dämpfung der Feder „{name}“ bleibt weg: Die Feder hat in dieser Lage keine Länge und also keine Richtung",
   "joints and drivers leave no freedom: nothing can vibrate":
     "Gelenke und Antriebe lassen keine Freiheit: Nichts kann schwingen",
   "the position is not an equilibrium: a generalized force of {left} N is left, which the linear equations leave out":
