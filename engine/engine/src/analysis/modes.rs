@@ -100,20 +100,8 @@ pub fn modes(scene: &Scene, about: ModesAbout) -> Result<Modes, AnalysisError> {
 pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Modes, AnalysisError> {
     let mut stage = Stage::new(scene)?;
     stage.wanted = wanted.clone();
-    let mut notes = Vec::new();
-    if about != ModesAbout::Steady && stage.q_dot.iter().any(|v| *v != 0.0) {
-        notes.push(
-            "velocities of the start are left out: modes are those of the mechanism at rest; those about the steady motion at these \
-             velocities, if there is one, can be asked for"
-                .to_owned(),
-        );
-    }
-    if !stage.mechanism.system.frictions.is_empty() {
-        notes.push(
-            "friction with a coefficient is left out: about a position at rest it has no linear law"
-                .to_owned(),
-        );
-    }
+    let mut notes = left_out_of_start(&stage, about);
+    let moving = stage.q_dot.iter().any(|v| *v != 0.0);
     short_springs::leave_out_held(&mut stage)?;
     let steady = match about {
         ModesAbout::Equilibrium => {
@@ -124,6 +112,13 @@ pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Mod
         ModesAbout::Steady => Some(steady::find(&mut stage)?),
     };
     let (steady, unfelt) = steady.unzip();
+    if steady.is_some() && moving && stage.flow.is_rest() {
+        notes.push(
+            "velocities of the start are left out: they belong to no motion in which all bodies keep their places in a frame, and \
+             the steady motion near the start is rest"
+                .to_owned(),
+        );
+    }
     stage.rest();
     short_springs::leave_out_jumping(&mut stage, &mut notes);
     let mut basis = stage.tangent()?;
@@ -143,6 +138,7 @@ pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Mod
         ));
     }
     let small = SmallMotions::new(&mut stage, &basis, unfelt.as_ref());
+    notes.extend(small.told_of_held());
     let length = stage.mechanism.system.length;
     let mut modes: Vec<Mode> = small
         .eigen(&stage)?
@@ -161,6 +157,25 @@ pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Mod
     Ok(Modes { freedoms, modes, left_out, without_inertia, steady, bodies: stage.frames(), notes })
 }
 
+/// What of the start linear equations about a position leave out.
+fn left_out_of_start(stage: &Stage, about: ModesAbout) -> Vec<String> {
+    let mut notes = Vec::new();
+    if about != ModesAbout::Steady && stage.q_dot.iter().any(|v| *v != 0.0) {
+        notes.push(
+            "velocities of the start are left out: modes are those of the mechanism at rest; those about the steady motion at these \
+             velocities, if there is one, can be asked for"
+                .to_owned(),
+        );
+    }
+    if !stage.mechanism.system.frictions.is_empty() {
+        notes.push(
+            "friction with a coefficient is left out: about a position at rest it has no linear law"
+                .to_owned(),
+        );
+    }
+    notes
+}
+
 /// The linear equations of the small motions.
 struct SmallMotions {
     /// Twists of each body as columns, those with inertia first.
@@ -169,6 +184,8 @@ struct SmallMotions {
     pencil: Pencil,
     /// Twists that have neither inertia nor stiffness nor damping.
     left_out: DMatrix<f64>,
+    /// How many motions without inertia stiffness alone holds.
+    held: usize,
     /// Stiffness of a motion of length one below which it is what differences leave of zero, N/m.
     stiffless: f64,
 }
@@ -248,7 +265,17 @@ impl SmallMotions {
         let (dampers, gyroscopic) = (stage.dampers(&motions), stage.gyroscopic(&motions));
         let inertial = inertial.ncols();
         let pencil = Pencil { inertial, stiffness, damping, dampers, gyroscopic, drifts, undamped };
-        Self { motions, pencil, left_out, stiffless }
+        Self { motions, pencil, left_out, held: h, stiffless }
+    }
+
+    /// What is told of motions that have no mode, as stiffness alone holds them.
+    fn told_of_held(&self) -> Option<String> {
+        (self.held > 0).then(|| {
+            format!(
+                "degrees of freedom without inertia that springs hold: {}; they follow the others at once and have no mode of their own",
+                self.held
+            )
+        })
     }
 
     fn eigen(&self, stage: &Stage) -> Result<Vec<Eigen>, AnalysisError> {

@@ -43,3 +43,14 @@ fn a_spring_that_passes_no_length_has_no_linear_law() {
     assert!((omega_2(&jumps) - 11.81).abs() < 1e-8, "{jumps:?}");
     assert!(jumps.notes.iter().any(|note| note.contains("spring \"spring\" has no length")), "{jumps:?}");
 }
+
+/// A turn without inertia that a spring holds is a freedom without a mode, which is told.
+#[test]
+fn what_a_spring_holds_without_inertia_is_told() {
+    let scene = json!({"name": "massless turn", "bodies": [{"name": "rod", "mass": 1, "inertia": {"principal": [0, 0.1, 0.1]}}],
+        "joints": [{"name": "pin", "type": "revolute", "body_i": "ground", "body_j": "rod", "point": [0, 0, 0], "axis": [1, 0, 0]}],
+        "loads": [{"type": "torsion", "name": "spring", "joint": "pin", "stiffness": 10}]});
+    let found = modes(&Scene::from_json(&scene.to_string()).unwrap(), ModesAbout::Start).unwrap();
+    assert!(found.freedoms == 1 && found.modes.is_empty() && found.left_out == 0, "{found:?}");
+    assert!(found.notes.iter().any(|note| note.contains("that springs hold: 1;")), "{found:?}");
+}

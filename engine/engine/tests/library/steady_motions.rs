@@ -122,3 +122,21 @@ fn what_is_prescribed_and_changes_is_not_steady() {
         assert!(steady(&scene).is_ok());
     }
 }
+
+/// The rockers of a four-bar that moves are in no frame: its steady motion is rest, and its velocities are told to be left out.
+#[test]
+fn velocities_that_belong_to_no_steady_motion_are_told() {
+    let rod = |name: &str, position: [f64; 3]| json!({"name": name, "mass": 1, "position": position});
+    let pin = |name: &str, i: &str, j: &str, point: [f64; 3]| json!({"name": name, "type": "revolute", "body_i": i, "body_j": j, "point": point, "axis": [0, 0, 1]});
+    let mut scene = json!({"name": "four-bar", "gravity": [0, 0, 0],
+        "bodies": [rod("crank", [0.0, 0.5, 0.0]), rod("coupler", [1.0, 1.25, 0.0]), rod("rocker", [2.0, 0.75, 0.0])],
+        "joints": [pin("a", "ground", "crank", [0.0, 0.0, 0.0]), pin("b", "crank", "coupler", [0.0, 1.0, 0.0]),
+            pin("c", "coupler", "rocker", [2.0, 1.5, 0.0]), pin("d", "ground", "rocker", [2.0, 0.0, 0.0])],
+        "loads": [{"type": "torsion", "name": "spring", "joint": "a", "stiffness": 10}]});
+    let told = |scene: &Value| {
+        steady(scene).unwrap().notes.iter().any(|note| note.contains("steady motion near the start is rest"))
+    };
+    assert!(!told(&scene));
+    scene["joints"][0]["start"] = json!({"rate": 2.0});
+    assert!(told(&scene));
+}

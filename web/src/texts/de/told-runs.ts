@@ -164,6 +164,10 @@ export const toldOfRuns: Record<string, string> = {
     "{positions} Lagen sind mehr, als eine Analyse gibt",
   "velocities of the start are left out: modes are those of the mechanism at rest; those about the steady motion at these velocities, if there is one, can be asked for":
     "Die Geschwindigkeiten des Anfangs bleiben weg: Die Eigenformen sind die des ruhenden Mechanismus; die um die stationäre Bewegung mit diesen Geschwindigkeiten, wenn es sie gibt, kann man verlangen",
+  "velocities of the start are left out: they belong to no motion in which all bodies keep their places in a frame, and the steady motion near the start is rest":
+    "Die Geschwindigkeiten des Anfangs bleiben weg: Sie gehören zu keiner Bewegung, in der alle Körper ihre Plätze in einem System behalten, und die stationäre Bewegung nahe dem Anfang ist die Ruhe",
+  "degrees of freedom without inertia that springs hold: {held}; they follow the others at once and have no mode of their own":
+    "Freiheitsgrade ohne Trägheit, die Federn halten: {held}; sie folgen den anderen sofort und haben keine eigene Eigenform",
   "friction with a coefficient is left out: about a position at rest it has no linear law":
     "Reibung mit einem Beiwert bleibt weg: Um eine Ruhelage hat sie kein lineares Gesetz",
   "friction with a coefficient is left out of the forces; a run of the driven mechanism has it":
