@@ -5,11 +5,10 @@ mod pencil;
 mod short_springs;
 mod steady;
 
-use super::inertia::TurnsWithoutInertia;
 pub use mode::{Mode, ModeShape};
 pub use steady::SteadyMotion;
 
-use super::inertia::{self, Inertia};
+use super::inertia::{self, Inertia, TurnsWithoutInertia};
 use super::{AnalysisError, Stage, Wanted, equilibrium};
 use crate::scene::Scene;
 use mode::{CLEARLY, mode};
