@@ -257,3 +257,70 @@ fn bennetts_linkage_goes_round_at_any_interval_of_outputs() {
         }
     }
 }
+
+/// A body that drivers turn about the vertical through a joint, once a second and more than once round.
+fn turned(joint: &str, drivers: &[(&str, [f64; 3])]) -> Kinematics {
+    let drivers: Vec<_> = drivers
+        .iter()
+        .enumerate()
+        .map(|(k, (kind, start))| {
+            let motion = json!({ "kind": "turning", "start": start, "axis": [0, 0, 1], "angle": { "kind": "ramp", "rate": 1.0 } });
+            json!({ "type": kind, "name": format!("d{k}"), "body": "b", *kind: start, "motion": motion })
+        })
+        .collect();
+    let joints = match joint {
+        "none" => json!([]),
+        kind => {
+            let mut joint =
+                json!({ "name": "J", "type": kind, "body_i": "ground", "body_j": "b", "point": [0, 0, 0] });
+            if kind == "revolute" {
+                joint["axis"] = json!([0, 0, 1]);
+            }
+            json!([joint])
+        }
+    };
+    let scene = json!({
+        "name": "turned", "gravity": [1, 2, -3],
+        "bodies": [{ "name": "b", "mass": 2, "center_of_mass": [0.2, 0.1, 0.3], "inertia": { "principal": [0.1, 0.3, 0.2] },
+            "position": [0, 0, 0], "velocity": [0, 0, 0], "angular_velocity": [0, 0, 1] }],
+        "joints": joints, "drivers": drivers, "simulation": { "duration": 7.0, "every": 0.01 },
+    });
+    follow(&Scene::from_json(&scene.to_string()).unwrap())
+}
+
+/// Of the rows of a driver that asks for more than is free, others depend on the rest when the body has turned. No position of a
+/// uniform rotation is singular: the forces on the body are m (a − g) throughout, and what is unique stays so.
+#[test]
+fn which_rows_depend_on_others_may_change_without_a_singular_position() {
+    let point = [0.5, 0.0, 0.2];
+    let cases: [(&str, &[(&str, [f64; 3])]); 4] = [
+        ("revolute", &[("point", point)]),
+        ("revolute", &[("vector", [1.0, 0.0, 0.0])]),
+        ("spherical", &[("vector", [1.0, 0.0, 0.0]), ("vector", [0.0, 1.0, 0.0])]),
+        ("none", &[("point", point), ("point", [0.0, 0.4, 0.1]), ("point", [-0.3, 0.1, 0.6])]),
+    ];
+    for (joint, drivers) in cases {
+        let found = turned(joint, drivers);
+        let told: Vec<_> = found.notes.iter().filter(|note| note.contains("singular")).collect();
+        assert!(told.is_empty(), "{joint} with {drivers:?}: {} notes, first {:?}", told.len(), told.first());
+        assert!(found.singularities.is_empty());
+        for state in &found.states {
+            let unique = |at: usize| state.reactions.reactions[at].moment[2].unique;
+            match (joint, drivers[0].0) {
+                // The moment about a hinge without friction is none.
+                ("revolute", _) => assert!(unique(0), "t = {}", state.time),
+                ("spherical", _) => {
+                    assert!(state.reactions.reactions[0].force.iter().all(|force| force.unique));
+                }
+                _ => {}
+            }
+            let [x, y] = [0.2, 0.1];
+            let (sin, cos) = (libm::sin(state.time), libm::cos(state.time));
+            let inward = [-(cos * x - sin * y), -(sin * x + cos * y), 0.0];
+            for (k, (a, g)) in inward.into_iter().zip([1.0, 2.0, -3.0]).enumerate() {
+                let force: f64 = state.reactions.reactions.iter().map(|r| r.force[k].value).sum();
+                assert!((force - 2.0 * (a - g)).abs() < 1e-8, "{joint}: {force} at t = {}", state.time);
+            }
+        }
+    }
+}

@@ -11,7 +11,7 @@ use crate::run::{EventOccurrence, Simulation, SingularConfiguration};
 use crate::scene::{ConstraintMethod, IntegratorKind, Scene};
 use nalgebra::Vector3;
 use triad_dynamics::constraints::mechanism::Mechanism;
-use triad_dynamics::dynamics::elimination::Elimination;
+use triad_dynamics::dynamics::elimination::{Elimination, ProjectableState};
 use triad_dynamics::model::{ForceLaw, LoadKind, Model};
 use triad_dynamics::newton::{DEPENDENT, project_positions, project_velocities, rules};
 use triad_dynamics::state;
@@ -186,8 +186,7 @@ impl Path {
         on.state.set_time(on.system, time);
         on.state.set_positions(on.system, on.q);
         on.elimination.linearize(on.system, on.state);
-        let least = on.elimination.pivot_products().iter().fold(f64::INFINITY, |least, p| least.min(*p));
-        self.singular = least < NEARLY_SINGULAR;
+        self.singular = is_nearly_singular(&mut on, run.rank().dependent.len());
         let mut moved = 0.0;
         if !self.singular {
             self.iterations += project_positions(&mut on, &rules::KINEMATICS_POSITIONS, length).corrections;
@@ -255,6 +254,26 @@ impl Path {
         };
         AnalysisError::Unreachable { time, drivers: named(true), joints: named(false) }
     }
+}
+
+/// Whether the position in place, where S was factored, is nearly singular: whether more rows than those that depend on others
+/// everywhere, so many, nearly do. Which ones these are changes while bodies turn: of the three rows of a point that can only go along a
+/// circle, the one that moves the most holds. Where those that were kept do so no longer, others are taken from here on.
+fn is_nearly_singular(on: &mut ProjectableState<'_>, dependent: usize) -> bool {
+    let ProjectableState { system, state, elimination, .. } = on;
+    if elimination.pivot_products().iter().all(|product| *product >= NEARLY_SINGULAR) {
+        return false;
+    }
+    if dependent == 0 {
+        return true;
+    }
+    let here = elimination.dependent_rows(system, state, NEARLY_SINGULAR);
+    let singular = here.len() > dependent;
+    if !singular {
+        elimination.set_dependent(&here);
+    }
+    elimination.linearize(system, state);
+    singular
 }
 
 /// What numbers at some times contribute to the slope, at time t, of the polynomial through them.
