@@ -6,6 +6,8 @@ pub mod violation;
 
 mod changed;
 
+mod given;
+
 pub mod mechanism;
 
 pub mod rough;

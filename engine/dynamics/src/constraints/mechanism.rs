@@ -2,6 +2,7 @@
 
 use crate::constraints::ConstraintError;
 use crate::constraints::changed;
+use crate::constraints::given;
 use crate::constraints::violation;
 use crate::dynamics::elimination::{Accelerations, Elimination, ProjectableState};
 use crate::model::{BodyRef, DriverKind, Model};
@@ -119,7 +120,9 @@ impl Mechanism {
         still: &dyn Fn() -> bool,
     ) -> Result<Vec<String>, ConstraintError> {
         self.state.set_revolutions(self.system.start_angles());
-        self.assemble_at_if(0.0, y, still)
+        let mut notes = self.assemble_at_if(0.0, y, still)?;
+        notes.extend(given::lost(&self.system, y));
+        Ok(notes)
     }
 
     /// Moves a state at time t onto the constraints, whole turns of angles counted from those that are kept.

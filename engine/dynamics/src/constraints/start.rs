@@ -1,17 +1,14 @@
 //! Starts that are given by joints: loops are closed with the given angles, displacements and rates held.
 
+use crate::constraints::given::{driver_of, place, take_over};
 use crate::constraints::mechanism::Mechanism;
 use crate::constraints::rough;
 use crate::model::motion::Curve;
-use crate::model::{BodyRef, DriverKind, Model, ModelDriver, ModelJoint, ModelStart};
+use crate::model::{DriverKind, Model, ModelDriver, ModelStart};
 use crate::newton::{project_velocities, rules};
-use crate::state::BodyFrame;
-use nalgebra::{Matrix3, Vector3};
 
 /// |Φ| relative to the mechanism's length up to which a start is closed.
 const CLOSED: f64 = 1e-9;
-/// A given rate that joints change by more than this part of itself is told.
-const LARGE_PART: f64 = 0.1;
 
 /// A checked model as a mechanism, and its start y = (q, q̇) as the author gives it by bodies and joints. Where joints give it,
 /// loops are closed as far as that can be done with what is given held; what remains open is left to the assembly.
@@ -24,8 +21,6 @@ pub fn mechanism_if(mut model: Model, still: &dyn Fn() -> bool) -> (Mechanism, V
     if !model.starts.is_empty() {
         close_positions(&mut model, still);
         fit_velocities(&mut model);
-        let lost = lost_rates(&model);
-        model.notes.extend(lost);
     }
     Mechanism::from_model(model)
 }
@@ -38,17 +33,9 @@ fn held(model: &Model, of: impl Fn(&ModelStart, [f64; 2]) -> [Option<Curve>; 2])
     held.events.clear();
     for start in &model.starts {
         let joint = start.joint;
-        let is = |kind: &DriverKind, turning: bool| match kind {
-            DriverKind::Angle { joint: driven, .. } => turning && *driven == joint,
-            DriverKind::Slide { joint: driven, .. } => !turning && *driven == joint,
-            DriverKind::Point { .. }
-            | DriverKind::Vector { .. }
-            | DriverKind::Cosine { .. }
-            | DriverKind::CosineToWorld { .. } => false,
-        };
         let [angle, slide] = of(start, place(model, &model.joints[joint]));
         let mut hold = |turning: bool, kind: DriverKind| {
-            if !model.drivers.iter().any(|driver| is(&driver.kind, turning)) {
+            if driver_of(model, joint, turning).is_none() {
                 held.drivers.push(ModelDriver { name: model.joints[joint].name.clone(), kind });
             }
         };
@@ -77,7 +64,7 @@ fn close_positions(model: &mut Model, still: &dyn Fn() -> bool) {
     let (_, _, left) = rough::close(&mut mechanism, &mut y, still);
     // A comparison that is false for NaN as well.
     if left <= CLOSED * length {
-        take_over(model, &mechanism, &y, false);
+        take_over(model, &mechanism.system, &y, false);
     }
 }
 
@@ -94,79 +81,6 @@ fn fit_velocities(model: &mut Model) {
     let length = mechanism.system.length;
     project_velocities(&mut mechanism.projectable(&mut y), &rules::ROUGH_VELOCITIES, length);
     if y.iter().all(|number| number.is_finite()) {
-        take_over(model, &mechanism, &y, true);
+        take_over(model, &mechanism.system, &y, true);
     }
-}
-
-/// Writes y = (q, q̇) as the start of the model's bodies: their places, or their velocities.
-fn take_over(model: &mut Model, mechanism: &Mechanism, y: &[f64], velocities: bool) {
-    let system = &mechanism.system;
-    let (q, q_dot) = y.split_at(system.coordinates);
-    for (body, described) in model.bodies.iter_mut().zip(&system.bodies) {
-        let at = described.layout.position(q);
-        let frame = BodyFrame::new(&at, &described.layout.velocity(&at, q_dot));
-        if velocities {
-            (body.velocity, body.angular_velocity) = (frame.velocity.into(), frame.angular_velocity.into());
-        } else {
-            body.position = frame.position.into();
-            body.directors = Matrix3::from_columns(&[frame.u, frame.v, frame.w].map(Vector3::from));
-        }
-    }
-}
-
-/// A point or a vector of a body at the start, in the world.
-fn in_world(model: &Model, body: BodyRef, local: &Vector3<f64>, point: bool) -> Vector3<f64> {
-    match body {
-        BodyRef::Ground => *local,
-        BodyRef::Moving(body) => {
-            let body = &model.bodies[body];
-            let turned = body.directors * local;
-            if point { body.position + turned } else { turned }
-        }
-    }
-}
-
-/// Angle and displacement of a joint at the start.
-fn place(model: &Model, joint: &ModelJoint) -> [f64; 2] {
-    let [i, j] = joint.bodies;
-    let b = in_world(model, j, &joint.cross[1][0], false);
-    let [x, y] = joint.cross[0].map(|a| in_world(model, i, &a, false).dot(&b));
-    let [from, to] = [0, 1].map(|side| in_world(model, joint.bodies[side], &joint.points[side], true));
-    [libm::atan2(y, x), in_world(model, i, &joint.axes[0], false).dot(&(to - from))]
-}
-
-/// The rates of a joint at the start, of its angle and of its displacement.
-fn rates(model: &Model, joint: &ModelJoint) -> [f64; 2] {
-    let axis = in_world(model, joint.bodies[0], &joint.axes[0], false);
-    let points = [0, 1].map(|side| in_world(model, joint.bodies[side], &joint.points[side], true));
-    let motions = [0, 1].map(|side| match joint.bodies[side] {
-        BodyRef::Ground => [Vector3::zeros(); 2],
-        BodyRef::Moving(index) => {
-            let body = &model.bodies[index];
-            let arm = points[side] - body.position;
-            [body.velocity + body.angular_velocity.cross(&arm), body.angular_velocity]
-        }
-    });
-    let [[from, first], [to, second]] = motions;
-    let slide = axis.dot(&(to - from)) + first.cross(&axis).dot(&(points[1] - points[0]));
-    [axis.dot(&(second - first)), slide]
-}
-
-/// Rates that were asked for, and that the joints do not allow, in sentences.
-fn lost_rates(model: &Model) -> Vec<String> {
-    let mut told = Vec::new();
-    for start in &model.starts {
-        let joint = &model.joints[start.joint];
-        let found = rates(model, joint);
-        for ((given, found), unit) in [start.rate, start.speed].into_iter().zip(found).zip(["rad/s", "m/s"]) {
-            let Some(given) = given else { continue };
-            if (found - given).abs() > LARGE_PART * given.abs() {
-                told.push(format!(
-                    "joint \"{}\": of the {given} {unit} that are given for the start the joints leave {found:.6} {unit}",
-                    joint.name
-                ));
-            }
-        }
-    }
-    told
 }

@@ -234,7 +234,11 @@ fn lost_velocities_and_rates_are_told() {
     scene.drivers.clear();
     scene.joints[3] = scene.joints[3].clone().starting_at(0.0, 5.0);
     let notes = Simulation::new(&scene).unwrap().notes().join("\n");
-    assert!(notes.contains("joint \"D\": of the 5 rad/s that are given for the start"), "{notes}");
+    assert!(
+        notes
+            .contains("joint \"D\": 5 rad/s are given for the start, but all that is given together leaves "),
+        "{notes}"
+    );
     // A joint without an axis has no angle.
     let mut scene = catalogue::scene("spatial-chain:2").unwrap();
     scene.joints[0] = scene.joints[0].clone().starting_at(0.1, 0.0);

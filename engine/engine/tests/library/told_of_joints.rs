@@ -43,3 +43,60 @@ fn a_gear_before_its_joints_is_told_to_stand_after_them() {
         "{error}"
     );
 }
+
+/// The notes of starts of two hinges in a plane, of which drivers, or a gear of ratio 3, may leave something else.
+fn told_of_starts(starts: [Value; 2], driver: Option<Value>, geared: bool) -> Vec<String> {
+    let hinge = |name: &str, body: &str, x: f64, start: &Value| {
+        json!({ "name": name, "type": "revolute", "body_i": "ground", "body_j": body, "point": [x, 0, 0], "axis": [0, 0, 1],
+            "start": start })
+    };
+    let wheel = |name: &str, x: f64| json!({ "name": name, "mass": 1, "inertia": { "principal": [1, 1, 1] }, "position": [x, 0, 0] });
+    let mut joints = vec![hinge("r", "p", 0.0, &starts[0]), hinge("r2", "q", 1.0, &starts[1])];
+    if geared {
+        joints.push(json!({ "name": "g", "type": "gear", "joints": ["r", "r2"], "ratio": 3 }));
+    }
+    let drivers: Vec<Value> = driver
+        .map(|motion| json!({ "type": "angle", "name": "m", "joint": "r", "motion": motion }))
+        .into_iter()
+        .collect();
+    let scene = scene(&json!({
+        "name": "starts", "bodies": [wheel("p", 0.0), wheel("q", 1.0)], "joints": joints, "drivers": drivers,
+    }));
+    let run = Simulation::new(&scene).unwrap();
+    run.notes().iter().filter(|note| note.contains("are given for the start")).cloned().collect()
+}
+
+/// What is given of a joint for the start and the start does not have is told with both numbers, however little it lacks, and what
+/// agrees is not.
+#[test]
+fn a_start_that_another_one_or_a_driver_replaces_is_told() {
+    let none = || json!({});
+    let ramp = |start: f64, rate: f64| Some(json!({ "kind": "ramp", "start": start, "rate": rate }));
+    let by_driver = |given: &str, taken: &str| {
+        vec![format!(
+            "joint \"r\": {given} are given for the start, but driver \"m\" prescribes {taken} there"
+        )]
+    };
+    for (given, taken) in [(0.1, 0.5), (0.3, 0.1), (0.0, 0.3), (0.3, 0.0), (0.3, 0.299)] {
+        let told = told_of_starts([json!({ "angle": given }), none()], ramp(taken, 0.0), false);
+        assert_eq!(told, by_driver(&format!("{given} rad"), &format!("{taken} rad")));
+    }
+    let told = told_of_starts([json!({ "rate": 5.0 }), none()], ramp(0.0, 5.4), false);
+    assert_eq!(told, by_driver("5 rad/s", "5.4 rad/s"));
+    // What agrees, whole turns and rounding aside.
+    for given in [0.5, 0.5 + std::f64::consts::TAU, 0.500_000_3] {
+        let told = told_of_starts([json!({ "angle": given, "rate": 2.0 }), none()], ramp(0.5, 2.0), false);
+        assert!(told.is_empty(), "{told:?}");
+    }
+    let geared = |rates: [f64; 2]| told_of_starts(rates.map(|rate| json!({ "rate": rate })), None, true);
+    let left = |joint: &str, given: &str, taken: &str| {
+        format!(
+            "joint \"{joint}\": {given} rad/s are given for the start, but all that is given together leaves {taken} rad/s"
+        )
+    };
+    let told = geared([1.0, 3.25]);
+    assert_eq!(told.len(), 2, "{told:?}");
+    assert!(geared([1.0, 3.0]).is_empty() || geared([1.0, -3.0]).is_empty());
+    assert!(told[0].starts_with(&left("r", "1", "")[..60]), "{told:?}");
+    assert!(told[1].starts_with(&left("r2", "3.25", "")[..60]), "{told:?}");
+}

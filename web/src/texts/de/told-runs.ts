@@ -82,8 +82,10 @@ export const toldOfRuns: Record<string, string> = {
     "Körper „{body}“: Von der Geschwindigkeit {given} m/s behält er {kept}",
   'body "{body}": of the angular velocity {given} rad/s it keeps {kept}':
     "Körper „{body}“: Von der Winkelgeschwindigkeit {given} rad/s behält er {kept}",
-  'joint "{joint}": of the {given} {unit} that are given for the start the joints leave {found}':
-    "Gelenk „{joint}“: Von den {given} {unit}, die für den Anfang gegeben sind, lassen die Gelenke {found}",
+  'joint "{joint}": {given} {unit} are given for the start, but driver "{driver}" prescribes {found} there':
+    "Gelenk „{joint}“: {given} {unit} sind für den Anfang gegeben, aber der Antrieb „{driver}“ schreibt dort {found} vor",
+  'joint "{joint}": {given} {unit} are given for the start, but all that is given together leaves {found}':
+    "Gelenk „{joint}“: {given} {unit} sind für den Anfang gegeben, aber alles Gegebene zusammen lässt {found}",
   "the start is a singular position: {n} rows lose their hold there, and several branches of motion may begin; without a velocity that chooses one, which of them is followed is not determined":
     "Der Anfang ist eine singuläre Lage: {n} Zeilen verlieren dort ihren Halt, und mehrere Zweige der Bewegung können beginnen; ohne eine Geschwindigkeit, die einen wählt, ist nicht bestimmt, welchem gefolgt wird",
   "joints hold more than once what they hold: friction with a coefficient follows the smallest reactions that do, which need not be those of a real mechanism":
