@@ -164,3 +164,30 @@ fn a_joint_that_follows_another_stands_where_multiplier_and_offset_put_it() {
     let (code, _) = import(json!({"positions": {"lead": 0.3, "follow": 1.1}}));
     assert_eq!(code, 0, "the same number twice is no contradiction");
 }
+
+/// A fixed joint has no position, and one number does not place a floating one: what a side-car gives of them is told as left out.
+#[test]
+fn starts_of_joints_that_one_number_does_not_place_are_told() {
+    let robot = r#"<robot name="r">
+<link name="base"/>
+<link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="b"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="fl" type="floating"><parent link="base"/><child link="a"/></joint>
+<joint name="fx" type="fixed"><parent link="a"/><child link="b"/></joint>
+</robot>"#;
+    let folder = tempfile::tempdir().unwrap();
+    let [urdf, with] = ["r.urdf", "with.json"].map(|name| folder.path().join(name));
+    std::fs::write(&urdf, robot).unwrap();
+    std::fs::write(&with, r#"{"positions": {"fl": 0.3, "fx": 1}, "velocities": {"fl": 2}}"#).unwrap();
+    let (_, told) = run_json(&["import", urdf.to_str().unwrap(), "--with", with.to_str().unwrap()]);
+    let left: Vec<(u64, &str)> = told["left_out"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|item| (item["line"].as_u64().unwrap(), item["what"].as_str().unwrap()))
+        .collect();
+    let starts: Vec<&str> =
+        left.iter().map(|(_, what)| *what).filter(|what| what.contains("at the start")).collect();
+    assert_eq!(left.iter().filter(|(line, _)| *line == 5).count(), 2, "{left:?}");
+    assert!(starts.len() == 3 && starts[2].contains("a fixed joint has none"), "{starts:?}");
+}

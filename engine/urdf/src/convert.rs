@@ -61,6 +61,7 @@ pub(super) fn scene(
         add_joint(&mut scene, link, &placed, left_out);
     }
     add_gears(&mut scene, robot, left_out);
+    tell_idle_starts(robot, side_car, left_out);
     for joint in &side_car.joints {
         go_on(still)?;
         scene.joints.push(closing(joint, &placed));
@@ -88,6 +89,28 @@ fn check_names(robot: &Robot, side_car: &SideCar, still: &dyn Fn() -> bool) -> R
         known("link", &links, &joint.body_j)?;
     }
     Ok(())
+}
+
+/// Tells which positions and velocities of the side-car belong to joints that one number does not place.
+fn tell_idle_starts(robot: &Robot, side_car: &SideCar, left_out: &mut Vec<OmittedItem>) {
+    for joint in &robot.joints {
+        let why = match joint.kind {
+            JointType::Revolute | JointType::Prismatic => continue,
+            JointType::Fixed => "a fixed joint has none",
+            JointType::Floating | JointType::Planar => {
+                "one number does not place such a joint: write the body's place into the scene"
+            }
+        };
+        for (what, given) in [("position", &side_car.positions), ("velocity", &side_car.velocities)] {
+            if given.get(&joint.name).is_some_and(|number| *number != 0.0) {
+                left_out.push(OmittedItem {
+                    line: joint.line,
+                    of: format!("joint {}", joint.name),
+                    what: format!("its {what} at the start: {why}"),
+                });
+            }
+        }
+    }
 }
 
 /// Walks the tree from its root.

@@ -13,15 +13,13 @@ const AT_REST: f64 = 1e-9;
 
 /// The driver of a joint's angle, or of its displacement.
 pub(super) fn driver_of(model: &Model, joint: usize, turning: bool) -> Option<&ModelDriver> {
-    model.drivers.iter().find_map(|driver| match &driver.kind {
-        DriverKind::Angle { joint: driven, .. } if turning && *driven == joint => Some(driver),
-        DriverKind::Slide { joint: driven, .. } if !turning && *driven == joint => Some(driver),
-        DriverKind::Angle { .. }
-        | DriverKind::Slide { .. }
-        | DriverKind::Point { .. }
+    model.drivers.iter().find(|driver| match driver.kind {
+        DriverKind::Angle { joint: driven, .. } => turning && driven == joint,
+        DriverKind::Slide { joint: driven, .. } => !turning && driven == joint,
+        DriverKind::Point { .. }
         | DriverKind::Vector { .. }
         | DriverKind::Cosine { .. }
-        | DriverKind::CosineToWorld { .. } => None,
+        | DriverKind::CosineToWorld { .. } => false,
     })
 }
 
@@ -120,8 +118,11 @@ pub(super) fn lost(system: &System, y: &[f64]) -> Vec<String> {
 
 /// A number with the digits that tell it from another one that is so far off.
 fn up_to(number: f64, off: f64) -> String {
-    let digits = (4.0 - libm::floor(libm::log10(off))).clamp(0.0, 15.0);
-    let text = format!("{number:.*}", digits as usize);
+    let (mut digits, mut shown) = (4, off);
+    while shown < 1.0 && digits < 15 {
+        (digits, shown) = (digits + 1, 10.0 * shown);
+    }
+    let text = format!("{number:.digits$}");
     let short = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if short == "-0" { "0".to_owned() } else { short.to_owned() }
 }

@@ -175,7 +175,7 @@ pub fn doubts(settings: &Settings, signs: &Signs) -> Vec<String> {
     let instead = match settings.step {
         _ if !projected => "use projection, with taylor or dop853",
         Some(_) => "use shorter steps, or leave their size to the tolerance",
-        None => "tighten the tolerance, or use taylor",
+        None => "tighten the tolerance, or compare with another integrator",
     };
     let mut doubts = Vec::new();
     if let Some(time) = signs.passed.filter(|_| !projected) {

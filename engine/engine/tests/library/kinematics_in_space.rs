@@ -258,8 +258,11 @@ fn bennetts_linkage_goes_round_at_any_interval_of_outputs() {
     }
 }
 
+/// The kind of a driver, and where it starts.
+type Asked<'a> = (&'a str, [f64; 3]);
+
 /// A body that drivers turn about the vertical through a joint, once a second and more than once round.
-fn turned(joint: &str, drivers: &[(&str, [f64; 3])]) -> Kinematics {
+fn turned(joint: &str, drivers: &[Asked]) -> Kinematics {
     let drivers: Vec<_> = drivers
         .iter()
         .enumerate()
@@ -293,7 +296,7 @@ fn turned(joint: &str, drivers: &[(&str, [f64; 3])]) -> Kinematics {
 #[test]
 fn which_rows_depend_on_others_may_change_without_a_singular_position() {
     let point = [0.5, 0.0, 0.2];
-    let cases: [(&str, &[(&str, [f64; 3])]); 4] = [
+    let cases: [(&str, &[Asked]); 4] = [
         ("revolute", &[("point", point)]),
         ("revolute", &[("vector", [1.0, 0.0, 0.0])]),
         ("spherical", &[("vector", [1.0, 0.0, 0.0]), ("vector", [0.0, 1.0, 0.0])]),

@@ -45,7 +45,7 @@ fn a_gear_before_its_joints_is_told_to_stand_after_them() {
 }
 
 /// The notes of starts of two hinges in a plane, of which drivers, or a gear of ratio 3, may leave something else.
-fn told_of_starts(starts: [Value; 2], driver: Option<Value>, geared: bool) -> Vec<String> {
+fn told_of_starts(starts: &[Value; 2], driver: Option<Value>, geared: bool) -> Vec<String> {
     let hinge = |name: &str, body: &str, x: f64, start: &Value| {
         json!({ "name": name, "type": "revolute", "body_i": "ground", "body_j": body, "point": [x, 0, 0], "axis": [0, 0, 1],
             "start": start })
@@ -78,17 +78,17 @@ fn a_start_that_another_one_or_a_driver_replaces_is_told() {
         )]
     };
     for (given, taken) in [(0.1, 0.5), (0.3, 0.1), (0.0, 0.3), (0.3, 0.0), (0.3, 0.299)] {
-        let told = told_of_starts([json!({ "angle": given }), none()], ramp(taken, 0.0), false);
+        let told = told_of_starts(&[json!({ "angle": given }), none()], ramp(taken, 0.0), false);
         assert_eq!(told, by_driver(&format!("{given} rad"), &format!("{taken} rad")));
     }
-    let told = told_of_starts([json!({ "rate": 5.0 }), none()], ramp(0.0, 5.4), false);
+    let told = told_of_starts(&[json!({ "rate": 5.0 }), none()], ramp(0.0, 5.4), false);
     assert_eq!(told, by_driver("5 rad/s", "5.4 rad/s"));
     // What agrees, whole turns and rounding aside.
     for given in [0.5, 0.5 + std::f64::consts::TAU, 0.500_000_3] {
-        let told = told_of_starts([json!({ "angle": given, "rate": 2.0 }), none()], ramp(0.5, 2.0), false);
+        let told = told_of_starts(&[json!({ "angle": given, "rate": 2.0 }), none()], ramp(0.5, 2.0), false);
         assert!(told.is_empty(), "{told:?}");
     }
-    let geared = |rates: [f64; 2]| told_of_starts(rates.map(|rate| json!({ "rate": rate })), None, true);
+    let geared = |rates: [f64; 2]| told_of_starts(&rates.map(|rate| json!({ "rate": rate })), None, true);
     let left = |joint: &str, given: &str, taken: &str| {
         format!(
             "joint \"{joint}\": {given} rad/s are given for the start, but all that is given together leaves {taken} rad/s"

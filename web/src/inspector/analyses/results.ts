@@ -29,10 +29,11 @@ export interface EquilibriumResult {
   iterations: number;
   residual: number;
   least_stiffness: number;
-  /** Null where the stiffness is too near zero to tell. */
+  /** Null where it is undecided; a note says why. */
   stable: boolean | null;
   bodies: Placed[];
   reactions: { reactions: Reaction[] };
+  notes: string[];
 }
 
 export interface Mode {
@@ -204,6 +205,7 @@ export function equilibriumView(found: EquilibriumResult, names: string[]): HTML
       [t("Left over"), `${sci(found.residual)} N`],
       [t("Steps"), String(found.iterations)],
     ]),
+    ...found.notes.map((note) => h("p", { class: "help" }, told(note))),
     places.root,
     forces.root,
   ];

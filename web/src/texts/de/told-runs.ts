@@ -125,7 +125,8 @@ export const toldOfRuns: Record<string, string> = {
   "use shorter steps, or leave their size to the tolerance":
     "nimm kürzere Schritte, oder überlass ihre Länge der Toleranz",
   "use projection, with taylor or dop853": "nimm Projektion, mit taylor oder dop853",
-  "tighten the tolerance, or use taylor": "verschärf die Toleranz, oder nimm taylor",
+  "tighten the tolerance, or compare with another integrator":
+    "verschärf die Toleranz, oder vergleiche mit einem anderen Verfahren",
   "at t = {time} s the motion passes within {apart} of a branching position of {joints}; either branch may be right: compare with taylor at a tighter tolerance, or change a length a little":
     "Bei t = {time} s geht die Bewegung im Abstand {apart} an einer Verzweigung von {joints} vorbei; jeder der Zweige kann richtig sein: Vergleiche mit taylor bei schärferer Toleranz, oder ändere eine Länge ein wenig",
 
@@ -170,6 +171,13 @@ export const toldOfRuns: Record<string, string> = {
     "Die Geschwindigkeiten des Anfangs bleiben weg: Sie gehören zu keiner Bewegung, in der alle Körper ihre Plätze in einem System behalten, und die stationäre Bewegung nahe dem Anfang ist die Ruhe",
   "degrees of freedom without inertia that springs hold: {held}; they follow the others at once and have no mode of their own":
     "Freiheitsgrade ohne Trägheit, die Federn halten: {held}; sie folgen den anderen sofort und haben keine eigene Eigenform",
+  "some motion meets no stiffness": "eine Bewegung findet keine Steifigkeit",
+  "some forces have no potential, such as those that turn with a body: whether the position is stable is decided by the growth of its small motions":
+    "Manche Kräfte haben kein Potential, etwa solche, die sich mit einem Körper drehen: Ob die Lage stabil ist, entscheidet das Anwachsen ihrer kleinen Bewegungen",
+  "some forces have no potential, such as those that turn with a body: whether the position is stable is decided by the growth of its small motions; undecided here: its modes tell":
+    "Manche Kräfte haben kein Potential, etwa solche, die sich mit einem Körper drehen: Ob die Lage stabil ist, entscheidet das Anwachsen ihrer kleinen Bewegungen; hier nicht entschieden: Die Eigenformen sagen es",
+  "dry friction is left out: where it holds, positions beside this one are positions of rest as well":
+    "Trockene Reibung bleibt weg: Wo sie hält, sind Lagen daneben auch Ruhelagen",
   "friction with a coefficient is left out: about a position at rest it has no linear law":
     "Reibung mit einem Beiwert bleibt weg: Um eine Ruhelage hat sie kein lineares Gesetz",
   "friction with a coefficient is left out of the forces; a run of the driven mechanism has it":
