@@ -241,22 +241,17 @@ impl ModelReader<'_> {
         };
         finite(&numbers, &self.at(key))?;
         let mut curve = Curve::new(motion).map_err(|error| self.wrong(key, error.to_string()))?;
-        match &mut curve {
-            Curve::Formula(formula) => match formula.undefined_until(self.duration) {
-                Some(time) => {
-                    let reason = format!(
-                        "its formula has no value, rate or second derivative at t = {time:.9} s, within the run of {} s",
-                        self.duration
-                    );
-                    Err(self.wrong(key, reason))
-                }
-                None => {
-                    formula.find_wakes(self.duration);
-                    Ok(curve)
-                }
-            },
-            Curve::Polynomial(_) | Curve::Harmonic { .. } | Curve::Pieces { .. } => Ok(curve),
+        if let Curve::Formula(formula) = &mut curve {
+            if let Some(time) = formula.undefined_until(self.duration) {
+                let reason = format!(
+                    "its formula has no value, rate or second derivative at t = {time:.9} s, within the run of {} s",
+                    self.duration
+                );
+                return Err(self.wrong(key, reason));
+            }
+            formula.find_wakes(self.duration);
         }
+        Ok(curve)
     }
 
     /// A checked vector motion.

@@ -264,7 +264,7 @@ impl Loads {
     pub fn goes_on(&self, h: f64, order: usize, part: f64) -> bool {
         let goes_on = |[kept, left]: [f64; 2]| left > part * kept;
         self.list.iter().any(|load| match load {
-            Load::Given { local, .. } => goes_on(kept_and_left(local.iter().map(|x| x.norm()), order, h)),
+            Load::Given { local, .. } => goes_on(kept_and_left(local.iter().map(Vector3::norm), order, h)),
             Load::Spring { law, .. } | Load::Torsion { law, .. } | Load::Slider { law, .. } => {
                 goes_on(kept_and_left(law.drive.iter().map(|x| x.abs()), order, h))
             }

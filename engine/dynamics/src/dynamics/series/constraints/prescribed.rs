@@ -126,7 +126,7 @@ impl Prescribed {
     /// Whether a part of more than `part` of what one of them does within h is in terms above an order.
     pub fn goes_on(&self, h: f64, order: usize, part: f64) -> bool {
         let features =
-            self.features.iter().map(|f| kept_and_left(f.local.iter().map(|x| x.norm()), order, h));
+            self.features.iter().map(|f| kept_and_left(f.local.iter().map(Vector3::norm), order, h));
         let numbers = self.numbers.iter().map(|n| kept_and_left(n.series.iter().map(|x| x.abs()), order, h));
         features.chain(numbers).any(|[kept, left]| left > part * kept)
     }
