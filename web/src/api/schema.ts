@@ -932,6 +932,8 @@ export interface components {
              *     added.
              */
             least_stiffness: number;
+            /** @description What has to be known of the result. */
+            notes: string[];
             /** @description Reactions at rest. */
             reactions: components["schemas"]["ReactionReport"];
             /**
@@ -939,7 +941,10 @@ export interface components {
              * @description Generalized force that is left, N.
              */
             residual: number;
-            /** @description Whether every small displacement is driven back; undecided (`None`) where some motion meets no stiffness. */
+            /**
+             * @description Whether every small displacement is driven back; undecided (`None`) where some motion meets no stiffness. Where forces have no
+             *     potential, whether no small motion grows, and undecided where something damps it.
+             */
             stable: boolean | null;
         };
         /** @description Whom to erase, and why. */

@@ -270,9 +270,12 @@ impl IslandStepper {
     pub fn breakpoints_dense(&mut self, end: f64) -> bool {
         let (t, order, tolerance) = (self.t, self.order, self.tolerance);
         let breakpoints = self.series.breakpoints_before(end, MAX_BREAKPOINTS);
-        breakpoints > 0
-            && (end - t) / (breakpoints as f64)
-                < DENSE_BREAKPOINTS * self.series.natural_step(order, tolerance)
+        if breakpoints == 0 {
+            return false;
+        }
+        // At rest before a pulse the series allow a step without end, and that says nothing.
+        let natural = self.series.natural_step(order, tolerance);
+        natural.is_finite() && (end - t) / (breakpoints as f64) < DENSE_BREAKPOINTS * natural
     }
 
     /// Axes of its joints that are kept by rows of common vectors.
