@@ -12,6 +12,12 @@ fn data(name: &str) -> String {
     root().join("tests/data").join(name).display().to_string()
 }
 
+/// What an import leaves out: lines, and what they belong to (`of`) or what is missing (`what`).
+fn left_out<'a>(told: &'a Value, key: &str) -> Vec<(u64, &'a str)> {
+    let items = told["left_out"].as_array().unwrap();
+    items.iter().map(|item| (item["line"].as_u64().unwrap(), item[key].as_str().unwrap())).collect()
+}
+
 #[test]
 fn an_arm_becomes_a_scene_that_runs_and_what_is_left_out_is_told_with_its_line() {
     let (code, told) = run_json(&["import", &data("arm.urdf")]);
@@ -26,12 +32,7 @@ fn an_arm_becomes_a_scene_that_runs_and_what_is_left_out_is_told_with_its_line()
     );
     assert_eq!(names(&told["scene"]["joints"]), ["shoulder", "elbow"]);
     assert_eq!(told["check"]["degrees_of_freedom"], 2);
-    let left: Vec<(u64, &str)> = told["left_out"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|left| (left["line"].as_u64().unwrap(), left["of"].as_str().unwrap()))
-        .collect();
+    let left = left_out(&told, "of");
     assert_eq!(left, [(9, "link upper"), (12, "joint shoulder"), (31, "robot")], "{:#}", told["left_out"]);
     // The elbow stands 1 m above the shoulder, which stands 0.2 m above the ground.
     let lower = &told["scene"]["bodies"][1];
@@ -180,12 +181,7 @@ fn starts_of_joints_that_one_number_does_not_place_are_told() {
     std::fs::write(&urdf, robot).unwrap();
     std::fs::write(&with, r#"{"positions": {"fl": 0.3, "fx": 1}, "velocities": {"fl": 2}}"#).unwrap();
     let (_, told) = run_json(&["import", urdf.to_str().unwrap(), "--with", with.to_str().unwrap()]);
-    let left: Vec<(u64, &str)> = told["left_out"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|item| (item["line"].as_u64().unwrap(), item["what"].as_str().unwrap()))
-        .collect();
+    let left = left_out(&told, "what");
     let starts: Vec<&str> =
         left.iter().map(|(_, what)| *what).filter(|what| what.contains("at the start")).collect();
     assert_eq!(left.iter().filter(|(line, _)| *line == 5).count(), 2, "{left:?}");
