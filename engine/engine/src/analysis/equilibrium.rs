@@ -157,19 +157,20 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
     loop {
         stage.wanted.check()?;
         let multipliers = stage.accelerate().multipliers.solver_rows().to_vec();
-        let stiffness = stage.stiffness(&held.basis, &multipliers);
-        let (stiffnesses, motions) = eigen(&stiffness);
+        let matrix = stage.stiffness(&held.basis, &multipliers);
+        let (along, motions) = eigen(&matrix);
+        let stiffness = Stiffness { matrix, along, motions };
         let residual = held.along.amax();
         let rounded = residual <= rounding(stage);
-        let balanced = held.is_balanced(&motions);
+        let balanced = held.is_balanced(&stiffness.motions);
         // Of rounding no step takes more away; whatever else there is still becomes smaller.
         if balanced || (rounded && residual > STALLED * before) {
-            return found(stage, &held, &Stiffness { matrix: stiffness, along: stiffnesses, motions }, steps);
+            return found(stage, &held, &stiffness, steps);
         }
         let next = if residual.is_finite() {
             let nothing = rounding(stage).max(BALANCED * held.largest);
             let length = stage.mechanism.system.length;
-            let step = downhill(&held, &stiffness, (&stiffnesses, &motions), length, nothing);
+            let step = downhill(&held, &stiffness, length, nothing);
             advance(stage, &held, &step, &mut reach, &mut steps)?
         } else {
             None
@@ -177,12 +178,7 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
         before = residual;
         let Some(next) = next else {
             if rounded {
-                return found(
-                    stage,
-                    &held,
-                    &Stiffness { matrix: stiffness, along: stiffnesses, motions },
-                    steps,
-                );
+                return found(stage, &held, &stiffness, steps);
             }
             let body = stage.foremost(&(&held.basis * &held.along));
             return Err(AnalysisError::NoEquilibrium { iterations: steps, residual, body });
@@ -246,8 +242,7 @@ fn found(
 /// from equilibrium the symmetric part of the stiffness couples them with motions that matter, by a stiffness below zero.
 fn downhill(
     held: &Held,
-    stiffness: &DMatrix<f64>,
-    (stiffnesses, motions): (&DVector<f64>, &DMatrix<f64>),
+    Stiffness { matrix, along: stiffnesses, motions }: &Stiffness,
     length: f64,
     nothing: f64,
 ) -> DVector<f64> {
@@ -259,11 +254,11 @@ fn downhill(
         }
         along
     };
-    let idle = if stiffnesses.min() > SOFTEST * stiffest { None } else { idle_and_felt(stiffness) };
+    let idle = if stiffnesses.min() > SOFTEST * stiffest { None } else { idle_and_felt(matrix) };
     let Some([idle, felt]) = idle else {
         return motions * divided(motions.tr_mul(&held.along), stiffnesses);
     };
-    let (stiffnesses, motions) = eigen(&felt.tr_mul(&(stiffness * &felt)));
+    let (stiffnesses, motions) = eigen(&felt.tr_mul(&(matrix * &felt)));
     let motions = felt * motions;
     let step = &motions * divided(motions.tr_mul(&held.along), &stiffnesses);
     let along = idle.tr_mul(&held.along);
