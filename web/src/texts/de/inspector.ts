@@ -214,7 +214,8 @@ export const inspector = {
   "the scene as its author wrote it": "die Szene, wie ihr Autor sie geschrieben hat",
   "Time, s": "Zeit, s",
   "Write a time in seconds, such as 1.5": "Schreibe eine Zeit in Sekunden, etwa 1.5",
-  "The run goes from 0 to {duration} s: write a time within": "Der Lauf geht von 0 bis {duration} s: schreibe eine Zeit darin",
+  "The run goes from 0 to {duration} s: write a time within":
+    "Der Lauf geht von 0 bis {duration} s: schreibe eine Zeit darin",
   "Bodies: centre of mass, principal axes, velocities": "Körper: Schwerpunkt, Hauptachsen, Geschwindigkeiten",
   "Frames: reference point and axes as the scene writes them":
     "Systeme: Bezugspunkt und Achsen, wie die Szene sie schreibt",
