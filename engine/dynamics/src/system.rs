@@ -22,6 +22,8 @@ pub mod load;
 
 mod breaks;
 
+pub mod passing;
+
 pub mod contact;
 
 pub mod event;

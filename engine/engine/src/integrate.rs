@@ -4,6 +4,8 @@ pub(crate) mod hermite;
 mod power;
 mod step;
 
+mod passings;
+
 mod track;
 
 mod stepper;

@@ -42,6 +42,12 @@ impl ForceLaw {
     pub fn next_break(&self, t: f64) -> f64 {
         self.drive.as_ref().map_or(f64::INFINITY, |drive| drive.next_break(t))
     }
+
+    /// Whether the length as such matters along the line between two points, so that the force turns round where they meet: not for the
+    /// spring −k x.
+    pub fn is_directed(&self) -> bool {
+        self.free != 0.0 || self.damping != 0.0 || self.drive.is_some() || self.friction.is_some()
+    }
 }
 
 /// What a load does; local coordinates are in principal frames.

@@ -6,6 +6,7 @@ use super::augmented::Augmented;
 use super::driven::Driven;
 use super::explicit::{DOP853, DOPRI5, Explicit};
 use super::in_chart::{Bridged, Chart, IndependentCoordinates, Start};
+use super::passings::Passings;
 use super::penalty::{Penalty, PenaltyParameters};
 use super::radau::{RADAU_5, Radau};
 use super::rattle::Rattle;
@@ -24,11 +25,17 @@ use triad_dynamics::ode::OdeSystem;
 pub struct Integrator {
     stepper: Box<dyn Stepper>,
     progress: ProgressMonitor,
+    /// What ends steps early, where there are such springs and the method does not see for itself.
+    passings: Option<Passings>,
 }
 
 impl Clone for Integrator {
     fn clone(&self) -> Self {
-        Self { stepper: self.stepper.boxed(), progress: self.progress.clone() }
+        Self {
+            stepper: self.stepper.boxed(),
+            progress: self.progress.clone(),
+            passings: self.passings.clone(),
+        }
     }
 }
 
@@ -49,12 +56,20 @@ impl DerefMut for Integrator {
 impl Integrator {
     /// Starts an integrator of the given kind (not `Auto`) at (t, y). One that cannot start fails at its first step.
     pub fn start(kind: IntegratorKind, mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Self {
-        Self::started(start(kind, mechanism, t, y, false), t, y)
+        Self::of_kind(kind, mechanism, t, y, false)
     }
 
     /// The same for a solution that another one of the same method is compared with: it solves the equations of its steps further.
     pub fn start_beside(kind: IntegratorKind, mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Self {
-        Self::started(start(kind, mechanism, t, y, true), t, y)
+        Self::of_kind(kind, mechanism, t, y, true)
+    }
+
+    fn of_kind(kind: IntegratorKind, mechanism: &mut Mechanism, t: f64, y: &[f64], beside: bool) -> Self {
+        let started = Self::started(start(kind, mechanism, t, y, beside), t, y);
+        let by_itself = matches!(kind, IntegratorKind::Taylor | IntegratorKind::Auto);
+        let system = &mechanism.system;
+        let watches = !by_itself && system.model.settings.step.is_none() && system.has_directed_springs();
+        Self { passings: watches.then(Passings::default), ..started }
     }
 
     /// None: its first step is refused. For copies of a run that only answer questions.
@@ -66,7 +81,7 @@ impl Integrator {
         let stepper =
             started.unwrap_or_else(|reason| Box::new(FailedStart { record: StepRecord::new(t, y), reason }));
         let islands = stepper.skipped().map_or(1, |skipped| skipped.islands);
-        Self { progress: ProgressMonitor::new(t, islands), stepper }
+        Self { progress: ProgressMonitor::new(t, islands), stepper, passings: None }
     }
 
     /// Work done and projections made, including those that the mechanism counts.
@@ -98,6 +113,11 @@ impl Integrator {
     ///
     /// [`StopReason`]: why the run cannot go on.
     pub fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason> {
+        let last = self.stepper.last();
+        let end = match &mut self.passings {
+            Some(passings) => passings.end_of_step(&mechanism.system, last, end),
+            None => end,
+        };
         self.stepper.step(mechanism, end)?;
         let settings = &mechanism.system.model.settings;
         let time = self.last().t;

@@ -11,6 +11,7 @@ mod explicit;
 mod friction;
 mod integrators;
 mod parts;
+mod passing;
 mod pivots;
 mod problems;
 mod pushed;

@@ -1,5 +1,6 @@
 //! Loads as series — eq. (11.4), (11.5): forces, moments, and elements along a length, an angle or a displacement.
 
+mod passing;
 mod potential;
 
 use super::bodies::{Bodies, LanePlace};
@@ -123,15 +124,9 @@ impl LawSeries {
         self.rest[n] = -square(&self.tanh, n);
     }
 
-    /// Whether it is the spring −k x, for which the length as such need not be known.
-    fn is_linear(&self) -> bool {
-        let ForceLaw { free, damping, drive, friction, .. } = &self.law;
-        *free == 0.0 && *damping == 0.0 && drive.is_none() && friction.is_none()
-    }
-
     /// Whether x is the length of nothing, or of no consequence.
     fn without_direction(&self) -> bool {
-        self.x[0] < f64::MIN_POSITIVE || self.is_linear()
+        self.x[0] < f64::MIN_POSITIVE || !self.law.is_directed()
     }
 
     fn expand(&mut self, t: f64) {
@@ -392,7 +387,7 @@ fn spring_force(
     over_length: &mut [f64],
     law: &mut LawSeries,
 ) -> Vector3<f64> {
-    if law.is_linear() {
+    if !law.law.is_directed() {
         return between[n] * -law.law.stiffness;
     }
     // A spring of no length has no direction to pull in.

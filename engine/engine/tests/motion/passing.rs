@@ -1,0 +1,78 @@
+//! Points of springs and dampers that pass each other closely: from afar nothing knows of it, and a step must not go over it.
+
+#![allow(clippy::unwrap_used)]
+
+use serde_json::{Value, json};
+use triad_engine::run::Simulation;
+use triad_engine::scene::{IntegratorKind, Scene};
+
+const WAYS: [IntegratorKind; 6] = [
+    IntegratorKind::Auto,
+    IntegratorKind::Taylor,
+    IntegratorKind::Dop853,
+    IntegratorKind::Dopri5,
+    IntegratorKind::Radau,
+    IntegratorKind::Rattle,
+];
+
+/// A body of 1.5 kg on the x-axis that comes from −1 m with 3 m/s, and a spring or damper to a point at x = 0.2 m, beside its way by `gap`.
+fn passing(gap: f64, law: &Value) -> Scene {
+    let mut spring = json!({"type": "spring", "name": "S", "body_i": "ground", "point_i": [0.2, gap, 0], "body_j": "A", "point_j": [0, 0, 0]});
+    spring.as_object_mut().unwrap().extend(law.as_object().unwrap().clone());
+    let scene = json!({
+        "name": "passing", "gravity": [0, 0, 0],
+        "bodies": [{"name": "A", "mass": 1.5, "inertia": {"principal": [0.1, 0.2, 0.25]}, "position": [-1, 0, 0], "velocity": [3, 0, 0]}],
+        "joints": [{"name": "rail", "type": "prismatic", "body_i": "ground", "body_j": "A", "point": [-1, 0, 0], "axis": [1, 0, 0]}],
+        "loads": [spring],
+        "simulation": {"duration": 1.2}
+    });
+    Scene::from_json(&scene.to_string()).unwrap()
+}
+
+/// m v′ = −c x²/(x² + g²): the velocity is a function of the way.
+#[test]
+fn a_damper_that_is_passed_closely_is_not_stepped_over() {
+    let (mass, damping) = (1.5, 2.0);
+    for gap in [1e-2, 1e-3, 1e-4, 1e-6] {
+        let braked = |x: f64| damping / mass * (x - gap * libm::atan(x / gap));
+        for (kind, tolerance) in WAYS.iter().flat_map(|way| [1e-3, 1e-6, 1e-9].map(|tol| (*way, tol))) {
+            let scene = passing(gap, &json!({"damping": damping, "stiffness": 0, "free_length": 0}));
+            let mut run = Simulation::new(&scene.integrator(kind).tolerance(tolerance)).unwrap();
+            run.advance_to(1.2).unwrap();
+            let body = run.frame().bodies[0].clone();
+            let expected = 3.0 - braked(body.position[0] - 0.2) + braked(-1.2);
+            let error = (body.velocity[0] - expected).abs();
+            let told = run.error_estimate().unwrap();
+            let told = told.velocity + damping / mass * told.position;
+            assert!(
+                error < 10.0 * told + 1e-11 && error < 100.0 * tolerance,
+                "{kind}, {tolerance:e}, gap {gap:e}: {error:e}, told {told:e}"
+            );
+        }
+    }
+}
+
+/// The force of a spring that is pushed together turns round where its points pass, and a force f(t) along the line does too: the energy
+/// stays, or is what the force has done. Also where they meet.
+#[test]
+fn a_spring_that_is_passed_closely_keeps_its_energy() {
+    for gap in [1e-2, 1e-4, 1e-8, 0.0] {
+        for (kind, tolerance) in WAYS.iter().flat_map(|way| [1e-3, 1e-6, 1e-9].map(|tol| (*way, tol))) {
+            for law in [
+                json!({"stiffness": 2, "free_length": 0.3}),
+                json!({"stiffness": 0, "free_length": 0, "force": 0.5}),
+            ] {
+                let mut run =
+                    Simulation::new(&passing(gap, &law).integrator(kind).tolerance(tolerance)).unwrap();
+                run.advance_to(1.2).unwrap();
+                let summary = run.summary();
+                let lost = summary.energy_drift.abs();
+                assert!(
+                    lost < 300.0 * tolerance && summary.doubts.is_empty(),
+                    "{kind}, {tolerance:e}, gap {gap:e}, {law}: {lost:e}, {:?}",
+                    summary.doubts
+                );
+            }
+        }
+    }
+}
