@@ -50,6 +50,7 @@ use lanes::LaneVector;
 use layout::bundles;
 use loads::Loads;
 use pulp::Simd;
+use work::WorkBetween;
 
 /// The smallest tolerance that redundant rows admit: below it, their rounding would be taken for motion.
 pub const MIN_TOLERANCE_REDUNDANT: f64 = 1e-11;
@@ -91,6 +92,8 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     next_break: f64,
     /// Coefficients of the power of drivers and of loads without potential, if there are any.
     power: Vec<f64>,
+    /// The work of the last step where they do not reach its end.
+    work_between: WorkBetween,
     /// A copy that evaluates it within steps.
     meter: Option<Box<Self>>,
     schur: Schur,
@@ -170,8 +173,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
         let nowhere = LanePlace { slot: moving + ground.len(), lane: 0 };
         ground.push([[0.0; L]; 3]);
-        let stride = order + 1;
-        let all = moving + ground.len();
+        let (stride, all) = (order + 1, moving + ground.len());
         slots.shrink_to_fit();
         let schur = Schur::new(system, &place, L, B::TWIST);
         let points = JointPoints::new(system, &bundles, &slots, &place, &schur.factor, stride);
@@ -184,6 +186,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             time: 0.0,
             next_break: f64::INFINITY,
             power: vec![0.0; if system.is_conservative() { 0 } else { stride }],
+            work_between: WorkBetween::default(),
             meter: None,
             angles,
             prescribed,

@@ -10,20 +10,23 @@ use crate::newton::Projectable;
 use crate::system::System;
 use crate::system::index::SolverRow;
 use pulp::Arch;
-use std::f64::consts::PI;
 use triad_linalg::larger;
+
+mod between;
+
+pub(super) use between::WorkBetween;
 
 /// Order of the series at a single state: that of the accelerations.
 const ACCELERATIONS: usize = 2;
-/// Part of the tolerance below which the last terms of the power, beside all of them, show that there is nothing more to find.
+/// Part of the tolerance below which the last terms of the power, beside the power itself, show that there is nothing more to find.
 const COMPLETE: f64 = 0.1;
-/// Part of all terms above which the last ones show that the series of the power hardly converge, as about a state beside a singular
-/// position: it is then a polynomial through powers within the step. And the same in tolerances: loose ones leave terms that are as large.
-const ROUGH: (f64, f64) = (1e-4, 100.0);
-/// The powers that this goes through.
-const NODES: usize = 12;
-/// Greatest size of the term that is found, in the last ones known: near a singular position the power of a single state is noise.
-const PLAUSIBLE: f64 = 10.0;
+/// Part of the terms before it below which a term may be small by chance, and part of the power above which what is left out is not foreseen
+/// from the terms before it.
+const CHANCE: f64 = 0.1;
+const SEEN: f64 = 0.01;
+/// The power is looked at in so many places of a step.
+const PLACES: usize = 4;
+
 /// A step: its start and size, s, the order at which it was cut, and the terms of its power.
 #[derive(Clone, Copy)]
 pub(super) struct Taken {
@@ -44,6 +47,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         meter.keep_constants(self.schur.keep_constants);
         meter.leave_out(left_out);
         self.meter = Some(Box::new(meter));
+        self.work_between = WorkBetween::new();
     }
 
     /// Finds the power of drivers and of loads without potential, from the series up to order `order`.
@@ -59,18 +63,16 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
     }
 
-    /// Finds one more term of the power in a step that was taken, unless its series tell it to the tolerance as they are.
+    /// Finds one more term of the power in a step that was taken, unless its series tell it to the tolerance as they are; where that is not
+    /// enough, as where a mass is shaken along a line, or beside a singular position, the polynomial through powers within the step.
     pub(super) fn complete_power(&mut self, taken: Taken, tolerance: f64) {
         let Taken { h, terms, .. } = taken;
+        self.work_between.forget();
         if self.meter.is_none() || self.power.len() <= terms {
             return;
         }
-        let [all, last] = self.sizes_of_power(taken);
-        if last <= COMPLETE * tolerance * all {
-            return;
-        }
-        if last > ROUGH.0.max(ROUGH.1 * tolerance) * all {
-            self.interpolate_power(taken);
+        let [size, last] = self.sizes_of_power(taken);
+        if last <= COMPLETE * tolerance * size {
             return;
         }
         // Gauss's point for the weight τ^n of what is left out: its work is exact for two of its terms.
@@ -81,54 +83,39 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         for _ in 0..terms {
             (missing, at_end) = (missing / tau, at_end * h / tau);
         }
-        if at_end.abs() <= PLAUSIBLE * last {
+        // The next one, if they go on falling as fast as this one does beside those before it; one alone may be small by chance.
+        let fallen = at_end.abs().max(CHANCE * last);
+        let next = fallen * fallen / last;
+        // Of n terms and this one, it does to the work the n²-th part of what it does to the power at the end, at most.
+        if next <= ((terms * terms) as f64 * tolerance).min(SEEN) * size {
             self.power[terms] = missing;
+        } else {
+            self.interpolate_power(taken, tolerance);
         }
     }
 
-    /// Replaces the series of the power by the polynomial through powers at Chebyshev's points of the step.
-    fn interpolate_power(&mut self, taken: Taken) {
-        let count = NODES.min(self.power.len());
-        let (mut places, mut differences) = ([0.0; NODES], [0.0; NODES]);
-        for (i, (place, value)) in places.iter_mut().zip(&mut differences).enumerate().take(count) {
-            *place = 0.5 - 0.5 * libm::cos((i as f64 + 0.5) * PI / count as f64);
-            *value = self.power_at(taken, *place * taken.h);
-        }
-        for order in 1..count {
-            for i in (order..count).rev() {
-                differences[i] = (differences[i] - differences[i - 1]) / (places[i] - places[i - order]);
-            }
-        }
-        // From Newton's form to coefficients of powers of τ/h.
-        let mut coefficients = [0.0; NODES];
-        for i in (0..count).rev() {
-            for k in (1..count).rev() {
-                coefficients[k] = coefficients[k - 1] - places[i] * coefficients[k];
-            }
-            coefficients[0] = differences[i] - places[i] * coefficients[0];
-        }
-        if coefficients.iter().all(|c| c.is_finite()) {
-            self.power.fill(0.0);
-            let mut scale = 1.0;
-            for (power, c) in self.power.iter_mut().zip(&coefficients[..count]) {
-                *power = c * scale;
-                scale /= taken.h;
-            }
-        }
+    /// Finds the polynomial through powers within the step.
+    fn interpolate_power(&mut self, taken: Taken, tolerance: f64) {
+        let mut between = std::mem::take(&mut self.work_between);
+        between.find(taken.h, tolerance, |tau| self.power_at(taken, tau));
+        self.work_between = between;
     }
 
-    /// Sizes of the terms of the power at the end of a step: all together, and the larger of the last two.
+    /// Sizes at a step: of the power in some places of it, and of the larger of its last two terms at the end.
     fn sizes_of_power(&self, Taken { h, terms, .. }: Taken) -> [f64; 2] {
-        let ([mut all, mut last], mut power) = ([0.0, 0.0], 1.0);
-        for (n, p) in self.power[..terms].iter().enumerate() {
-            let term = (p * power).abs();
-            all += term;
+        let known = &self.power[..terms];
+        let (mut size, mut last, mut power) = (known.first().map_or(0.0, |p| p.abs()), 0.0, 1.0);
+        for place in 1..=PLACES {
+            let tau = h * place as f64 / PLACES as f64;
+            size = larger(size, known.iter().rev().fold(0.0, |sum, p| sum * tau + p).abs());
+        }
+        for (n, p) in known.iter().enumerate() {
             if n + 2 >= terms {
-                last = larger(last, term);
+                last = larger(last, (p * power).abs());
             }
             power *= h;
         }
-        [all, last]
+        [size, last]
     }
 
     /// The power by the equations a time τ after the start of a step.
@@ -151,6 +138,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Work of drivers and of loads without potential in a time τ after the point of the last expansion, J.
     pub fn work(&self, tau: f64) -> f64 {
-        self.power.iter().enumerate().rev().fold(0.0, |sum, (n, p)| (sum + p / (n + 1) as f64) * tau)
+        self.work_between.at(tau).unwrap_or_else(|| {
+            self.power.iter().enumerate().rev().fold(0.0, |sum, (n, p)| (sum + p / (n + 1) as f64) * tau)
+        })
     }
 }
