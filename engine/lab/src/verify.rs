@@ -23,6 +23,17 @@ pub struct BodyError {
     pub turn: f64,
 }
 
+/// Where a second solution contradicts the errors that both tell: one of them is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Contradiction {
+    /// When, s.
+    pub time: f64,
+    /// How far apart they are, m.
+    pub apart: f64,
+    /// The sum of the errors that are told, m.
+    pub told: f64,
+}
+
 /// What a second solution says about a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Verification {
@@ -38,6 +49,9 @@ pub struct Verification {
     pub turn: f64,
     /// Largest differences body by body.
     pub bodies: Vec<BodyError>,
+    /// Where the two are much farther apart than the errors that they tell of themselves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contradiction: Option<Contradiction>,
     /// Places at which the second solution may have followed another branch of the motion than the right one, in words.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub branching: Vec<String>,
@@ -49,6 +63,10 @@ pub struct Verification {
 /// Part of the length of the mechanism that two solutions may be apart before the result is doubted: as for the estimate that a
 /// run makes itself.
 const DOUBTFUL: f64 = 0.01;
+/// Errors that are told, in the distance of two solutions, from which on the distance contradicts them: what estimates promise. And the
+/// distance, in lengths of the mechanism, that is rounding.
+const CONTRADICTED: f64 = 10.0;
+const ROUNDING: f64 = 1e-12;
 
 impl Verification {
     /// What the second solution speaks against in a run of the scene.
@@ -61,6 +79,12 @@ impl Verification {
                 "{second} is {:.1e} m away, more than a hundredth of the mechanism's length of {length:.3} m; tighten the \
                  tolerance, or look at a shorter time",
                 self.position
+            ));
+        }
+        if let Some(Contradiction { time, apart, told }) = self.contradiction {
+            doubts.push(format!(
+                "{second} is {apart:.1e} m away at t = {time:.6} s, where both together tell errors of {told:.1e} m: one of them is wrong; \
+                 tighten the tolerance"
             ));
         }
         if let Some(place) = self.branching.first() {
@@ -106,7 +130,7 @@ impl Verifier {
         settings.tolerance = (asked * TIGHTER).max(TIGHTEST);
         settings.constraint_method = ConstraintMethod::Projection;
         settings.step = None;
-        settings.error_estimate = false;
+        settings.error_estimate = true;
         settings.integrator = another(by_first, has_series);
         let mut second = Simulation::new(&scene)?;
         if second.summary().integrator == by_first && scene.simulation.tolerance * APART > asked {
@@ -122,6 +146,7 @@ impl Verifier {
             position: 0.0,
             turn: 0.0,
             bodies: bodies.collect(),
+            contradiction: None,
             branching: Vec::new(),
             stopped: None,
         };
@@ -144,16 +169,29 @@ impl Verifier {
         }
         let (here, there) = (first.frame(), self.second.frame());
         let apart = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] - b[k]).map(|d| d * d).sum::<f64>().sqrt();
+        let mut farthest = 0.0f64;
         for (error, (a, b)) in self.found.bodies.iter_mut().zip(here.bodies.iter().zip(&there.bodies)) {
+            farthest = farthest.max(apart(a.position, b.position));
             error.position = error.position.max(apart(a.position, b.position));
             let turn = apart(a.u, b.u).max(apart(a.v, b.v)).max(apart(a.w, b.w));
             error.turn = error.turn.max(turn);
             self.found.position = self.found.position.max(error.position);
             self.found.turn = self.found.turn.max(error.turn);
         }
+        self.weigh(first, farthest);
         self.found.branching = self.second.branching();
         self.found.compared += 1;
         true
+    }
+
+    /// Compares a distance of the two with the errors that they tell, where both do.
+    fn weigh(&mut self, first: &Simulation, apart: f64) {
+        let [here, there] = [first, &self.second].map(|run| run.error_estimate().map(|error| error.position));
+        let Some(told) = here.zip(there).map(|(here, there)| here + there) else { return };
+        let known = self.found.contradiction.map_or(0.0, |known| known.apart / known.told);
+        if apart > CONTRADICTED.max(known) * told && apart > ROUNDING * first.system().length {
+            self.found.contradiction = Some(Contradiction { time: first.time(), apart, told });
+        }
     }
 
     /// What was found so far.

@@ -328,7 +328,22 @@ fn a_run_is_verified_by_another_run() {
         assert!(verifier.compare(&run, u64::MAX));
         let found = verifier.found();
         assert!(0.0 < found.position && found.position < 1e-4, "{integrator} at {tolerance:e}: {found:?}");
+        assert!(found.contradiction.is_none() && found.doubts(&run).is_empty(), "{found:?}");
     }
+}
+
+/// Where an estimate is wrong, the second solution of a verification says so.
+#[test]
+fn a_verification_contradicts_an_estimate_that_is_too_small() {
+    let text = include_str!("data/plane-slider-with-rod.json");
+    let scene = Scene::from_json(text).unwrap().duration(0.4686).tolerance(1e-4);
+    let mut run = Simulation::new(&scene).unwrap();
+    let mut verifier = Verifier::new(&scene, &run).unwrap();
+    run.advance_to(0.4686).unwrap();
+    assert!(verifier.compare(&run, u64::MAX));
+    let found = verifier.found().contradiction.unwrap();
+    assert!(found.apart > 10.0 * found.told && (found.apart - 7.3e-6).abs() < 1e-7, "{found:?}");
+    assert!(verifier.found().doubts(&run).iter().any(|doubt| doubt.contains("one of them is wrong")));
 }
 
 /// The estimate changes nothing of the motion, nor of what it took.

@@ -40,7 +40,12 @@ pub struct ForceLaw {
 impl ForceLaw {
     /// The first moment after t at which what is prescribed has another piece, s, or infinity.
     pub fn next_break(&self, t: f64) -> f64 {
-        self.drive.as_ref().map_or(f64::INFINITY, |drive| drive.next_break(t))
+        self.first(|drive| drive.next_break(t))
+    }
+
+    /// What is said of the prescribed force, or infinity.
+    pub fn first(&self, of: impl Fn(&Curve) -> f64) -> f64 {
+        self.drive.as_ref().map_or(f64::INFINITY, of)
     }
 
     /// Whether the length as such matters along the line between two points, so that the force turns round where they meet: not for the

@@ -5,7 +5,7 @@ mod expansion;
 mod formula;
 
 pub use expansion::{MAX_TERMS, sine_cosine};
-pub use formula::{TimeFormula, TimeFormulaError};
+pub use formula::{TRIED, TimeFormula, TimeFormulaError};
 
 use crate::scene::{Motion, VectorMotion};
 use nalgebra::{Matrix3, Vector3};

@@ -241,16 +241,16 @@ impl ModelReader<'_> {
         };
         finite(&numbers, &self.at(key))?;
         let mut curve = Curve::new(motion).map_err(|error| self.wrong(key, error.to_string()))?;
-        if let Curve::Formula(formula) = &mut curve {
-            if let Some(time) = formula.undefined_until(self.duration) {
-                let reason = format!(
-                    "its formula has no value, rate or second derivative at t = {time:.9} s, within the run of {} s",
-                    self.duration
-                );
-                return Err(self.wrong(key, reason));
-            }
-            formula.find_wakes(self.duration);
+        if let Curve::Formula(formula) = &curve
+            && let Some(time) = formula.undefined_until(self.duration)
+        {
+            let reason = format!(
+                "its formula has no value, rate or second derivative at t = {time:.9} s, within the run of {} s",
+                self.duration
+            );
+            return Err(self.wrong(key, reason));
         }
+        curve.find_wakes(self.duration);
         Ok(curve)
     }
 
@@ -273,6 +273,8 @@ impl ModelReader<'_> {
                 self.curve(&format!("{key}/angle"), angle)?;
             }
         }
-        VectorCurve::new(motion).map_err(|error| self.wrong(key, error.to_string()))
+        let mut curve = VectorCurve::new(motion).map_err(|error| self.wrong(key, error.to_string()))?;
+        curve.find_wakes(self.duration);
+        Ok(curve)
     }
 }

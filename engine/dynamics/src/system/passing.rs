@@ -62,20 +62,23 @@ pub fn met(tolerance: f64, length: f64) -> f64 {
 }
 
 /// The longest step beside points that pass each other, whose squared distance is now a and a + b t + c t² afterwards, s: `part` of the way to
-/// the zeros of that in the complex plane, or beyond where the points are within `met`. Those of points that part do not count if only what
-/// lies `ahead` does.
+/// the zeros of that in the complex plane, or all of it where they are hardly farther apart than where they pass, or beyond where they are
+/// within `met`. Points that part do not count if only
+/// what lies `ahead` does; else those that begin to turn towards each other do not, of which too little is known.
 pub fn longest_step([a, b, c]: [f64; 3], ahead: bool, part: f64, met: f64) -> f64 {
     let (half, length) = (0.5 * b, a.sqrt());
     let discriminant = half * half - a * c;
+    if ahead && half >= 0.0 && discriminant <= 0.0 || !ahead && c <= 0.0 {
+        return f64::INFINITY;
+    }
     // Times to the nearest zero, in lengths.
     let slowness = if discriminant > 0.0 {
         // Two on the real axis: the first positive one, if there is one, or the nearer.
         let denominator = discriminant.sqrt() + if ahead { -half } else { half.abs() };
         if denominator > 0.0 { length / denominator } else { f64::INFINITY }
-    } else if half < 0.0 || !ahead {
-        c.sqrt().recip()
     } else {
-        f64::INFINITY
+        c.sqrt().recip()
     };
+    let part = if half * half < -discriminant { 1.0 } else { part };
     slowness * (part * length).max(2.0 * met)
 }

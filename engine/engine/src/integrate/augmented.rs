@@ -301,6 +301,10 @@ impl Stepper for Augmented {
         }
     }
 
+    fn next_size(&self) -> Option<f64> {
+        Some(self.h)
+    }
+
     fn boxed(&self) -> Box<dyn Stepper> {
         Box::new(self.clone())
     }

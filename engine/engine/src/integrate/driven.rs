@@ -130,6 +130,10 @@ impl Stepper for Driven {
         Self::close(mechanism, t, y);
     }
 
+    fn next_size(&self) -> Option<f64> {
+        Some(self.h)
+    }
+
     fn boxed(&self) -> Box<dyn Stepper> {
         Box::new(self.clone())
     }

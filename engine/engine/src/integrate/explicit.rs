@@ -325,6 +325,10 @@ impl OdeMethod for Explicit {
         }
     }
 
+    fn next_size(&self) -> Option<f64> {
+        Some(self.h)
+    }
+
     fn take_back(&mut self) {
         self.last.take_back();
         self.last.y.copy_from_slice(&self.y_old);
@@ -358,6 +362,10 @@ impl Stepper for Explicit {
         let pace = state::fastest(&mechanism.system, y);
         let (start, constraints) = (t - h, None);
         Some(IslandStep { island: 0, start, end: *t, pivot_products, constraints, pace, clearance: 0.0 })
+    }
+
+    fn next_size(&self) -> Option<f64> {
+        OdeMethod::next_size(self)
     }
 
     fn can_retreat(&self) -> bool {

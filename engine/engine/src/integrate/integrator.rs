@@ -10,7 +10,7 @@ use super::passings::Passings;
 use super::penalty::{Penalty, PenaltyParameters};
 use super::radau::{RADAU_5, Radau};
 use super::rattle::Rattle;
-use super::step::{StepRecord, StopReason};
+use super::step::{FEW_BREAKS, RARE_BREAKS, StepRecord, StopReason};
 use super::stepper::Stepper;
 use super::taylor::Taylor;
 use crate::scene::{ConstraintMethod, IntegratorKind};
@@ -19,13 +19,16 @@ use std::ops::{Deref, DerefMut};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::dynamics::elimination::Counters;
 use triad_dynamics::ode::OdeSystem;
+use triad_dynamics::system::System;
 
 /// The integrator of a run. It dereferences to the method that it runs.
 #[derive(Debug)]
 pub struct Integrator {
     stepper: Box<dyn Stepper>,
     progress: ProgressMonitor,
-    /// What ends steps early, where there are such springs and the method does not see for itself.
+    /// Whether steps end at each break of a given function.
+    at_each_break: bool,
+    /// What ends steps early where points of springs pass each other, if there are such and the method does not see for itself.
     passings: Option<Passings>,
 }
 
@@ -34,6 +37,7 @@ impl Clone for Integrator {
         Self {
             stepper: self.stepper.boxed(),
             progress: self.progress.clone(),
+            at_each_break: self.at_each_break,
             passings: self.passings.clone(),
         }
     }
@@ -56,20 +60,13 @@ impl DerefMut for Integrator {
 impl Integrator {
     /// Starts an integrator of the given kind (not `Auto`) at (t, y). One that cannot start fails at its first step.
     pub fn start(kind: IntegratorKind, mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Self {
-        Self::of_kind(kind, mechanism, t, y, false)
+        let few = has_few_breaks(&mechanism.system, t);
+        Self::started(start(kind, mechanism, t, y, false), t, y).minding(&mechanism.system, few)
     }
 
     /// The same for a solution that another one of the same method is compared with: it solves the equations of its steps further.
     pub fn start_beside(kind: IntegratorKind, mechanism: &mut Mechanism, t: f64, y: &[f64]) -> Self {
-        Self::of_kind(kind, mechanism, t, y, true)
-    }
-
-    fn of_kind(kind: IntegratorKind, mechanism: &mut Mechanism, t: f64, y: &[f64], beside: bool) -> Self {
-        let started = Self::started(start(kind, mechanism, t, y, beside), t, y);
-        let by_itself = matches!(kind, IntegratorKind::Taylor | IntegratorKind::Auto);
-        let system = &mechanism.system;
-        let watches = !by_itself && system.model.settings.step.is_none() && system.has_directed_springs();
-        Self { passings: watches.then(Passings::default), ..started }
+        Self::started(start(kind, mechanism, t, y, true), t, y).minding(&mechanism.system, true)
     }
 
     /// None: its first step is refused. For copies of a run that only answer questions.
@@ -81,7 +78,13 @@ impl Integrator {
         let stepper =
             started.unwrap_or_else(|reason| Box::new(FailedStart { record: StepRecord::new(t, y), reason }));
         let islands = stepper.skipped().map_or(1, |skipped| skipped.islands);
-        Self { progress: ProgressMonitor::new(t, islands), stepper, passings: None }
+        Self { progress: ProgressMonitor::new(t, islands), stepper, at_each_break: false, passings: None }
+    }
+
+    /// With what ends its steps.
+    fn minding(self, system: &System, at_each_break: bool) -> Self {
+        let watches = !self.stepper.sees_ahead() && system.has_directed_springs();
+        Self { passings: watches.then(Passings::default), at_each_break, ..self }
     }
 
     /// Work done and projections made, including those that the mechanism counts.
@@ -96,9 +99,11 @@ impl Integrator {
         (sum, mechanism.projections + projections)
     }
 
-    /// Takes the last step of another run of the same mechanism and method beside it. False where that is not possible.
+    /// Takes the last step of another run of the same mechanism and method beside it. False where that is not possible, or would hide what
+    /// that one steps over.
     pub fn follow(&mut self, mechanism: &mut Mechanism, other: &Self) -> bool {
-        other.leader().is_some_and(|other| self.stepper.follow(mechanism, other))
+        let leader = other.leader().filter(|_| other.at_each_break);
+        leader.is_some_and(|other| self.stepper.follow(mechanism, other))
     }
 
     /// Takes the last step back, so that a shorter one can be taken instead.
@@ -107,17 +112,29 @@ impl Integrator {
         self.progress.restart(self.last().t);
     }
 
+    /// Where a step that is not to go beyond `end` ends at the latest: where a given function of time that has rested begins to change, in small
+    /// parts of the time after that, where another piece of one begins, if there are few or pieces are longer than steps, and before points of
+    /// springs pass each other. With steps of one size the author has chosen what they see.
+    fn latest(&mut self, system: &System, end: f64) -> f64 {
+        if self.stepper.sees_ahead() || system.model.settings.step.is_some() {
+            return end;
+        }
+        let last = self.stepper.last();
+        let end = end.min(system.look_until(last.t));
+        let end = self.passings.as_mut().map_or(end, |passings| passings.end_of_step(system, last, end));
+        let first = system.next_break(last.t);
+        let rare = |h: f64| first < last.t + h && system.next_break(first) - first >= RARE_BREAKS * h;
+        let stops = first < end && (self.at_each_break || self.stepper.next_size().is_some_and(rare));
+        if stops { first } else { end }
+    }
+
     /// Takes one accepted step, not beyond `end`.
     ///
     /// # Errors
     ///
     /// [`StopReason`]: why the run cannot go on.
     pub fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason> {
-        let last = self.stepper.last();
-        let end = match &mut self.passings {
-            Some(passings) => passings.end_of_step(&mechanism.system, last, end),
-            None => end,
-        };
+        let end = self.latest(&mechanism.system, end);
         self.stepper.step(mechanism, end)?;
         let settings = &mechanism.system.model.settings;
         let time = self.last().t;
@@ -127,6 +144,12 @@ impl Integrator {
             _ => Ok(()),
         }
     }
+}
+
+/// Whether given functions have few breaks from time t on.
+fn has_few_breaks(system: &System, t: f64) -> bool {
+    let next = |t: &f64| Some(system.next_break(*t)).filter(|t| *t < system.model.settings.duration);
+    std::iter::successors(next(&t), next).take(FEW_BREAKS + 1).count() <= FEW_BREAKS
 }
 
 /// An integrator that could not start: its first step returns the reason.

@@ -111,6 +111,9 @@ impl Stepper for Penalty {
         let mut system = Penalized { mechanism, equations, parameters: *parameters };
         OdeMethod::interpolate(method, &mut system, t, y);
     }
+    fn next_size(&self) -> Option<f64> {
+        OdeMethod::next_size(&self.method)
+    }
     fn boxed(&self) -> Box<dyn Stepper> {
         Box::new(self.clone())
     }

@@ -285,6 +285,10 @@ impl Stepper for Rattle {
         }
     }
 
+    fn next_size(&self) -> Option<f64> {
+        Some(self.h)
+    }
+
     fn boxed(&self) -> Box<dyn Stepper> {
         Box::new(self.clone())
     }

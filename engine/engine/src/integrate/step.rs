@@ -14,6 +14,13 @@ pub const MIN_ERROR: f64 = 1e-12;
 /// for each second of time.
 pub const MIN_RETRY: f64 = 1e-10;
 
+/// Steps to the next break of a given function but one from which on a step ends at a break whether it shows or not. Where breaks follow
+/// more closely, as those of a table, steps that pass them are as exact as tolerances ask, and far fewer.
+pub const RARE_BREAKS: f64 = 2.0;
+/// Breaks of given functions in a run up to which a step ends at each of them: so many steps cost little. Of more, at those that are rare; a
+/// second solution, which is to see what that leaves out, ends its steps at all.
+pub const FEW_BREAKS: usize = 300;
+
 /// Steps of an integrator so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Steps {

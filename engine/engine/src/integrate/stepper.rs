@@ -38,6 +38,11 @@ pub trait OdeMethod: Clone + Debug + Send + Sync + 'static {
         false
     }
 
+    /// Size of the next step, s, where the method does not see to breaks of given functions by itself.
+    fn next_size(&self) -> Option<f64> {
+        None
+    }
+
     /// Takes the last step back. What else belongs to it is for [`OdeMethod::restart`] to renew.
     fn take_back(&mut self);
 
@@ -102,6 +107,16 @@ pub trait Stepper: Debug + Send + Sync {
 
     /// Takes one accepted step, not beyond `end`.
     fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason>;
+
+    /// Size of the next step, s, as far as it is known, where the method does not see to breaks of given functions by itself.
+    fn next_size(&self) -> Option<f64> {
+        None
+    }
+
+    /// Whether a given function that begins to change shows by itself.
+    fn sees_ahead(&self) -> bool {
+        false
+    }
 
     /// Writes y(t) within the last step.
     fn interpolate(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]);

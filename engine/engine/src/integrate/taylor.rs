@@ -199,6 +199,10 @@ impl Stepper for Taylor {
         (sum, self.projections)
     }
 
+    fn sees_ahead(&self) -> bool {
+        true
+    }
+
     fn boxed(&self) -> Box<dyn Stepper> {
         Box::new(self.clone())
     }

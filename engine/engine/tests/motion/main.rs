@@ -9,6 +9,7 @@ mod events;
 mod exactness;
 mod explicit;
 mod friction;
+mod given;
 mod integrators;
 mod parts;
 mod passing;

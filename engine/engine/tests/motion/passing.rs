@@ -39,13 +39,15 @@ fn a_damper_that_is_passed_closely_is_not_stepped_over() {
             let scene = passing(gap, &json!({"damping": damping, "stiffness": 0, "free_length": 0}));
             let mut run = Simulation::new(&scene.integrator(kind).tolerance(tolerance)).unwrap();
             run.advance_to(1.2).unwrap();
-            let body = run.frame().bodies[0].clone();
+            let body = run.frame().bodies[0];
             let expected = 3.0 - braked(body.position[0] - 0.2) + braked(-1.2);
             let error = (body.velocity[0] - expected).abs();
             let told = run.error_estimate().unwrap();
             let told = told.velocity + damping / mass * told.position;
+            // The second solution of a method that carries no error along is not better than a ten-thousandth of the tolerance.
+            let least = 1e-4 * tolerance + 1e-11;
             assert!(
-                error < 10.0 * told + 1e-11 && error < 100.0 * tolerance,
+                error < 10.0 * told + least && error < 100.0 * tolerance,
                 "{kind}, {tolerance:e}, gap {gap:e}: {error:e}, told {told:e}"
             );
         }

@@ -135,9 +135,10 @@ fn nine(x: f64) -> String {
     if x == 0.0 || x.abs() >= 1e-3 { format!("{:.9}", x + 0.0) } else { format!("{x:.9e}") }
 }
 
-/// The energy, of which there is none where it is but its drift.
+/// The energy, of which there is none where it is but its error.
 fn energy(s: &Summary) -> String {
-    nine(if s.energy.abs() <= s.energy_drift.abs() { 0.0 } else { s.energy })
+    let error = s.error.map_or(0.0, |error| error.energy);
+    nine(if s.energy.abs() <= error { 0.0 } else { s.energy })
 }
 
 fn figures(s: &Summary, verified: Option<&Verification>) -> Vec<String> {

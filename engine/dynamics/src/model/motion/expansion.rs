@@ -32,6 +32,18 @@ impl Curve {
         }
     }
 
+    /// Finds where a formula begins to change after it did not: see [`TimeFormula::find_wakes`](super::TimeFormula::find_wakes).
+    pub fn find_wakes(&mut self, end: f64) {
+        if let Self::Formula(formula) = self {
+            formula.find_wakes(end);
+        }
+    }
+
+    /// The first time after t at which a formula begins to change after it did not, s, or infinity.
+    pub fn next_wake(&self, t: f64) -> f64 {
+        if let Self::Formula(formula) = self { formula.next_wake(t) } else { f64::INFINITY }
+    }
+
     /// The first time after t at which another piece begins, or a formula begins to change, s, or infinity.
     pub fn next_break(&self, t: f64) -> f64 {
         match self {
@@ -81,11 +93,28 @@ impl VectorCurve {
 
     /// The first moment after t at which another piece begins, s, or infinity.
     pub fn next_break(&self, t: f64) -> f64 {
+        self.first(|curve| curve.next_break(t))
+    }
+
+    /// The same for all its functions.
+    pub fn find_wakes(&mut self, end: f64) {
         match self {
             Self::Components(components) | Self::Rotated(_, components) => {
-                components.iter().map(|c| c.next_break(t)).fold(f64::INFINITY, f64::min)
+                for curve in components {
+                    curve.find_wakes(end);
+                }
             }
-            Self::Turning { angle, .. } => angle.next_break(t),
+            Self::Turning { angle, .. } => angle.find_wakes(end),
+        }
+    }
+
+    /// The least of what its functions say.
+    pub fn first(&self, of: impl Fn(&Curve) -> f64) -> f64 {
+        match self {
+            Self::Components(components) | Self::Rotated(_, components) => {
+                components.iter().map(of).fold(f64::INFINITY, f64::min)
+            }
+            Self::Turning { angle, .. } => of(angle),
         }
     }
 }

@@ -4,7 +4,7 @@ use super::expansion::{MAX_TERMS, sine_cosine};
 use triad_scene::expression::{Expression, ExpressionError, Function, Node};
 
 /// Moments of a run at which a formula is tried before it starts.
-const TRIED: u32 = 1_000;
+pub const TRIED: u32 = 1_000;
 /// Part of its largest value within which a formula does not change but for rounding, and so many of those moments for which it has
 /// to stay so.
 const QUIET: f64 = 1e-15;

@@ -177,6 +177,10 @@ impl<S: Start> Stepper for Bridged<S> {
         self.stepper()?.work_to(t)
     }
 
+    fn next_size(&self) -> Option<f64> {
+        self.stepper()?.next_size()
+    }
+
     fn boxed(&self) -> Box<dyn Stepper> {
         Box::new(self.clone())
     }

@@ -384,6 +384,10 @@ impl<M: OdeMethod> Stepper for InChart<M> {
         method.restart(&mut system, x, &[]);
     }
 
+    fn next_size(&self) -> Option<f64> {
+        self.method.next_size()
+    }
+
     fn boxed(&self) -> Box<dyn Stepper> {
         Box::new(self.clone())
     }

@@ -1,21 +1,20 @@
 //! Steps that end where a prescribed function goes on by another piece: it is smooth only between such breaks.
 
 use super::Radau;
+use crate::integrate::step::RARE_BREAKS;
 use triad_dynamics::ode::OdeSystem;
 
-/// Steps to the next break but one from which on a step ends at a break whether it shows or not. Where breaks follow more closely, as those of
-/// a table, steps that pass them are as exact as tolerances ask, and far fewer.
-const RARE: f64 = 2.0;
 /// Least part of a refused step that ends at a break within it.
 const LEAST: f64 = 0.1;
 
 impl Radau {
-    /// Where the next step of a run to `end` ends at the latest, if breaks are rare.
+    /// Where the next step of a run to `end`, which may be a break, ends at the latest, if breaks are rare.
     pub(super) fn end_at_rare_break(&mut self, system: &impl OdeSystem, end: f64) -> f64 {
         self.stages.latest = f64::INFINITY;
         let first = system.next_break(self.last.t);
-        let rare = system.next_break(first) - first >= RARE * self.h;
-        if !self.fixed && rare && first < end.min(self.last.t + self.h) { self.end_at(first) } else { end }
+        let rare = system.next_break(first) - first >= RARE_BREAKS * self.h;
+        let ends = first == end || rare && first < end.min(self.last.t + self.h);
+        if ends && !self.fixed { self.end_at(first) } else { end }
     }
 
     /// After a refused step of size h of a run to `end`: whether the next try ends at a break within it, as one that is `by` times as long would

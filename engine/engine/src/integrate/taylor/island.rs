@@ -1,6 +1,6 @@
 //! An island, a part of a scene that nothing connects with the rest, and its series.
 
-use crate::integrate::step::StopReason;
+use crate::integrate::step::{FEW_BREAKS, StopReason};
 use crate::integrate::stepper::IslandStep;
 use crate::integrate::track::Track;
 use crate::scene::Skip;
@@ -265,12 +265,12 @@ impl IslandStepper {
         Ok(taken.rejected)
     }
 
-    /// Whether breakpoints of prescribed functions follow so closely until `end` that steps, which end at each of them, would
-    /// be far shorter than the series allow.
+    /// Whether breakpoints of prescribed functions are so many and follow so closely until `end` that steps, which end at each of them, would
+    /// be far shorter than the series allow. At a few all methods end their steps.
     pub fn breakpoints_dense(&mut self, end: f64) -> bool {
         let (t, order, tolerance) = (self.t, self.order, self.tolerance);
         let breakpoints = self.series.breakpoints_before(end, MAX_BREAKPOINTS);
-        if breakpoints == 0 {
+        if breakpoints <= FEW_BREAKS {
             return false;
         }
         // At rest before a pulse the series allow a step without end, and that says nothing.
