@@ -314,7 +314,7 @@ fn what_is_asked_for_is_done_refused_or_told_to_change_nothing() {
     fs::write(file("driven.json"), driven.to_string()).unwrap();
     let pendulum = "simple-pendulum";
     let vary = "/bodies/0/mass=1:2:2";
-    let cases: [(&[&str], i32, &str); 20] = [
+    let cases: [(&[&str], i32, &str); 21] = [
         (&["reactions", pendulum, "--at", "11"], 3, "which goes from 0 s to 10 s"),
         (&["reactions", pendulum, "--at", "nan"], 3, "which goes from 0 s to 10 s"),
         (&["reactions", pendulum, "--at", "-1"], 3, "which goes from 0 s to 10 s"),
@@ -330,6 +330,7 @@ fn what_is_asked_for_is_done_refused_or_told_to_change_nothing() {
         (&["sweep", pendulum, "--vary", vary, "--threads", "100000"], 3, "[threads]"),
         (&["sweep", pendulum, "--vary", vary, "--samples", "5"], 3, "none of the numbers is drawn"),
         (&["sweep", pendulum, "--vary", vary, "--vary", "mass=1:3:2"], 3, "is varied twice"),
+        (&["sweep", pendulum, "--vary", "/simulation/duration=1:3:3", "--until", "2"], 3, "--until sets"),
         (
             &["sweep", &file("baumgarte.json"), "--vary", vary, "--integrator", "taylor"],
             3,

@@ -63,8 +63,8 @@ pub fn met(tolerance: f64, length: f64) -> f64 {
 
 /// The longest step beside points that pass each other, whose squared distance is now a and a + b t + c t² afterwards, s: `part` of the way to
 /// the zeros of that in the complex plane, or all of it where they are hardly farther apart than where they pass, or beyond where they are
-/// within `met`. Points that part do not count if only
-/// what lies `ahead` does; else those that begin to turn towards each other do not, of which too little is known.
+/// within `met`. Points that part do not count if only what lies `ahead` does; else those that begin to turn towards each other do not, of which
+/// too little is known.
 pub fn longest_step([a, b, c]: [f64; 3], ahead: bool, part: f64, met: f64) -> f64 {
     let (half, length) = (0.5 * b, a.sqrt());
     let discriminant = half * half - a * c;

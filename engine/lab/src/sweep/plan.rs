@@ -48,6 +48,11 @@ pub struct Variation {
 }
 
 impl Variation {
+    /// Whether it replaces the number at a JSON pointer.
+    pub fn varies(&self, pointer: &str) -> bool {
+        self.places.iter().any(|(place, _)| place == pointer)
+    }
+
     /// Of a parameter of the scene by its name, or of a number by a JSON pointer such as `/bodies/0/mass`.
     ///
     /// # Errors

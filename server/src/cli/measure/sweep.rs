@@ -177,8 +177,23 @@ fn plan(options: &Options) -> Result<SweepPlan, Problem> {
         settings.outputs.clone_from(&options.outputs);
     }
     with_errors(settings, asked, LEAVE_OUT)?;
-    let varied = options.vary.iter().map(|text| variation(&scene, text)).collect::<Result<_, _>>()?;
+    let varied: Vec<_> = options.vary.iter().map(|text| variation(&scene, text)).collect::<Result<_, _>>()?;
+    given_once("--until", options.until, "/simulation/duration", &varied)?;
+    given_once("--tolerance", options.tolerance, "/simulation/tolerance", &varied)?;
     Ok(SweepPlan { varied, samples: options.samples, seed: options.seed, ..SweepPlan::with_errors(scene) })
+}
+
+/// Refuses an option whose number is varied too: it would be replaced in every run.
+fn given_once(option: &str, given: Option<f64>, pointer: &str, varied: &[Variation]) -> Result<(), Problem> {
+    let twice = varied.iter().find(|variation| given.is_some() && variation.varies(pointer));
+    twice.map_or(Ok(()), |variation| {
+        Err(Problem::new(
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "varied-twice",
+            format!("{option} sets {pointer}, which is varied by {}", variation.name),
+            format!("leave {option} or that --vary out"),
+        ))
+    })
 }
 
 /// Refuses to run by another integrator than the one that the command line asks for; tells of one that the scene asks for. A scene
