@@ -156,13 +156,26 @@ impl VectorCurve {
     ///
     /// [`TimeFormulaError`]: a formula that cannot be read, or is not smooth.
     pub fn new(motion: &VectorMotion) -> Result<Self, TimeFormulaError> {
+        Self::made_of(motion, |_, motion| Curve::new(motion))
+    }
+
+    /// The same from the functions of its components or its angle, each made for its name.
+    ///
+    /// # Errors
+    ///
+    /// Those of making them.
+    pub fn made_of<E>(
+        motion: &VectorMotion,
+        curve: impl Fn(&str, &Motion) -> Result<Curve, E>,
+    ) -> Result<Self, E> {
         Ok(match motion {
             VectorMotion::Fixed { vector } => Self::Components(vector.map(Curve::constant)),
             VectorMotion::Components { x, y, z } => {
-                Self::Components([Curve::new(x)?, Curve::new(y)?, Curve::new(z)?])
+                Self::Components([curve("x", x)?, curve("y", y)?, curve("z", z)?])
             }
             VectorMotion::Turning { start, axis, angle } => {
-                Self::turning(&Vector3::from(*start), &Vector3::from(*axis).normalize(), Curve::new(angle)?)
+                let axis = Vector3::from(*axis).normalize();
+                Self::turning(&Vector3::from(*start), &axis, curve("angle", angle)?)
             }
         })
     }

@@ -241,16 +241,16 @@ impl ModelReader<'_> {
         };
         finite(&numbers, &self.at(key))?;
         let mut curve = Curve::new(motion).map_err(|error| self.wrong(key, error.to_string()))?;
-        if let Curve::Formula(formula) = &curve
-            && let Some(time) = formula.undefined_until(self.duration)
-        {
-            let reason = format!(
-                "its formula has no value, rate or second derivative at t = {time:.9} s, within the run of {} s",
-                self.duration
-            );
-            return Err(self.wrong(key, reason));
+        if let Curve::Formula(formula) = &mut curve {
+            if let Some(time) = formula.undefined_until(self.duration) {
+                let reason = format!(
+                    "its formula has no value, rate or second derivative at t = {time:.9} s, within the run of {} s",
+                    self.duration
+                );
+                return Err(self.wrong(key, reason));
+            }
+            formula.find_wakes(self.duration);
         }
-        curve.find_wakes(self.duration);
         Ok(curve)
     }
 
@@ -262,19 +262,12 @@ impl ModelReader<'_> {
     pub fn vector_curve(&self, key: &str, motion: &VectorMotion) -> Result<VectorCurve, ModelError> {
         match motion {
             VectorMotion::Fixed { vector } => finite(vector, &self.at(key))?,
-            VectorMotion::Components { x, y, z } => {
-                for (component, motion) in [("x", x), ("y", y), ("z", z)] {
-                    self.curve(&format!("{key}/{component}"), motion)?;
-                }
-            }
-            VectorMotion::Turning { start, axis, angle } => {
+            VectorMotion::Components { .. } => {}
+            VectorMotion::Turning { start, axis, .. } => {
                 finite(start, &self.at(&format!("{key}/start")))?;
                 self.unit(&format!("{key}/axis"), *axis)?;
-                self.curve(&format!("{key}/angle"), angle)?;
             }
         }
-        let mut curve = VectorCurve::new(motion).map_err(|error| self.wrong(key, error.to_string()))?;
-        curve.find_wakes(self.duration);
-        Ok(curve)
+        VectorCurve::made_of(motion, |name, motion| self.curve(&format!("{key}/{name}"), motion))
     }
 }

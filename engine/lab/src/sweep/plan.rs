@@ -159,12 +159,11 @@ impl SweepPlan {
             return Err(SweepError::Undrawn { samples: self.samples });
         }
         for (k, second) in self.varied.iter().enumerate() {
-            let places = |of: &Variation, pointer: &str| of.places.iter().any(|(place, _)| place == pointer);
             let shared = self.varied[..k].iter().find_map(|first| {
                 second
                     .places
                     .iter()
-                    .find(|(pointer, _)| places(first, pointer))
+                    .find(|(pointer, _)| first.varies(pointer))
                     .map(|(pointer, _)| (first, pointer))
             });
             if let Some((first, pointer)) = shared {

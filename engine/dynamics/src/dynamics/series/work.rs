@@ -5,6 +5,7 @@
 //! tells the terms that are left out.
 
 use super::expand::Value;
+use super::recurrence::value;
 use super::{Bodies, Series};
 use crate::newton::Projectable;
 use crate::system::System;
@@ -78,7 +79,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         // Gauss's point for the weight τ^n of what is left out: its work is exact for two of its terms.
         let tau = h * (terms + 1) as f64 / (terms + 2) as f64;
         let power = self.power_at(taken, tau);
-        let known = self.power[..terms].iter().rev().fold(0.0, |sum, p| sum * tau + p);
+        let known = value(&self.power[..terms], tau);
         let (mut missing, mut at_end) = (power - known, power - known);
         for _ in 0..terms {
             (missing, at_end) = (missing / tau, at_end * h / tau);
@@ -106,8 +107,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let known = &self.power[..terms];
         let (mut size, mut last, mut power) = (known.first().map_or(0.0, |p| p.abs()), 0.0, 1.0);
         for place in 1..=PLACES {
-            let tau = h * place as f64 / PLACES as f64;
-            size = larger(size, known.iter().rev().fold(0.0, |sum, p| sum * tau + p).abs());
+            size = larger(size, value(known, h * place as f64 / PLACES as f64).abs());
         }
         for (n, p) in known.iter().enumerate() {
             if n + 2 >= terms {

@@ -32,13 +32,6 @@ impl Curve {
         }
     }
 
-    /// Finds where a formula begins to change after it did not: see [`TimeFormula::find_wakes`](super::TimeFormula::find_wakes).
-    pub fn find_wakes(&mut self, end: f64) {
-        if let Self::Formula(formula) = self {
-            formula.find_wakes(end);
-        }
-    }
-
     /// The first time after t at which a formula begins to change after it did not, s, or infinity.
     pub fn next_wake(&self, t: f64) -> f64 {
         if let Self::Formula(formula) = self { formula.next_wake(t) } else { f64::INFINITY }
@@ -94,18 +87,6 @@ impl VectorCurve {
     /// The first moment after t at which another piece begins, s, or infinity.
     pub fn next_break(&self, t: f64) -> f64 {
         self.first(|curve| curve.next_break(t))
-    }
-
-    /// The same for all its functions.
-    pub fn find_wakes(&mut self, end: f64) {
-        match self {
-            Self::Components(components) | Self::Rotated(_, components) => {
-                for curve in components {
-                    curve.find_wakes(end);
-                }
-            }
-            Self::Turning { angle, .. } => angle.find_wakes(end),
-        }
     }
 
     /// The least of what its functions say.
