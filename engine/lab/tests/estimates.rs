@@ -332,17 +332,28 @@ fn a_run_is_verified_by_another_run() {
     }
 }
 
+/// What a step adds is told with all terms that it leaves out, not by the first one alone: else the first steps of this run nearly cancel in
+/// the estimate (4e-8 m for 7e-6 m), and not in the error.
+#[test]
+fn the_errors_of_few_steps_do_not_cancel_in_the_estimate_alone() {
+    let scene = Scene::from_json(include_str!("data/plane-slider-with-rod.json")).unwrap();
+    let judged = judge(&scene.integrator(IntegratorKind::Taylor).tolerance(1e-4)).unwrap();
+    let bad: Vec<&Judged> = judged.iter().filter(|one| one.is_bad()).collect();
+    assert!(judged.len() > 10 && bad.is_empty(), "{bad:?}");
+}
+
 /// Where an estimate is wrong, the second solution of a verification says so.
 #[test]
 fn a_verification_contradicts_an_estimate_that_is_too_small() {
-    let text = include_str!("data/plane-slider-with-rod.json");
-    let scene = Scene::from_json(text).unwrap().duration(0.4686).tolerance(1e-4);
+    let text = include_str!("data/plane-mechanism-with-rod.json");
+    let time = 0.262_857_142_857_142_84;
+    let scene = Scene::from_json(text).unwrap().duration(time).tolerance(1e-3);
     let mut run = Simulation::new(&scene).unwrap();
     let mut verifier = Verifier::new(&scene, &run).unwrap();
-    run.advance_to(0.4686).unwrap();
+    run.advance_to(time).unwrap();
     assert!(verifier.compare(&run, u64::MAX));
     let found = verifier.found().contradiction.unwrap();
-    assert!(found.apart > 10.0 * found.told && (found.apart - 7.3e-6).abs() < 1e-7, "{found:?}");
+    assert!(found.apart > 10.0 * found.told && (found.apart - 5.1e-5).abs() < 1e-6, "{found:?}");
     assert!(verifier.found().doubts(&run).iter().any(|doubt| doubt.contains("one of them is wrong")));
 }
 

@@ -1,12 +1,13 @@
 //! The error of a motion, carried along with it — eqs. (11.10) and (11.11).
 //!
 //! Beside the motion x goes the motion without its error, z = x − e, written as that difference. The series about z need
-//! fewer terms than those about x, because only their difference counts. What a step itself adds is read off the
+//! fewer terms than those about x, because only their difference counts. What a step itself adds is told by its last terms, and by the
 //! accelerations at its end, where its polynomials miss those of the equations by a known multiple.
 
 mod differences;
 
 mod energy;
+mod tail;
 
 use super::step::Part;
 use super::{Bodies, Series};
@@ -16,6 +17,7 @@ use differences::{Between, Differ, Missed, Size, Within, moved, moved_both, valu
 use energy::Energy;
 use pulp::Arch;
 use std::mem::swap;
+use tail::Tail;
 use triad_linalg::larger;
 
 /// Part of the length of the mechanism beyond which an error is no longer carried: it would no longer be small.
@@ -57,7 +59,9 @@ pub(super) struct Transport<const L: usize, B: Bodies<L>> {
     unfinished: bool,
     /// If so, half the accelerations of the motion without its error at the end of the step.
     beside: Vec<B::Natural>,
-    /// What the last step adds to that at its end, before it is moved onto the constraints: states within the step are not.
+    /// How the terms of the last step go on, and what it adds to that at its end besides, before it is moved onto the constraints: states
+    /// within the step are not.
+    tail: Tail,
     added: Vec<[B::Natural; 2]>,
     /// What that is worth, m.
     worth: f64,
@@ -135,9 +139,18 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let (order, h) = transport.step;
         let part: f64 = if h > 0.0 { (tau / h).clamp(0.0, 1.0) } else { 1.0 };
         let weight = (0..order).fold(1.0, |power, _| power * part);
+        let left_out = transport.tail.after(part);
         for b in 0..self.bundles.len() {
             let state = if part < 1.0 {
-                Arch::new().dispatch(Within { transport, b, tau, weights: [weight * part, weight] })
+                let at = b * self.stride + order;
+                Arch::new().dispatch(Within {
+                    transport,
+                    b,
+                    tau,
+                    weights: [weight * part, weight],
+                    last: [&self.q[at], &self.q[at - 1]],
+                    left_out,
+                })
             } else {
                 transport.error[b]
             };
@@ -165,6 +178,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             order: 0,
             unfinished: false,
             beside: vec![B::zero(); count],
+            tail: Tail::default(),
             added: nothing,
             worth: 0.0,
             step: (0, 0.0),
@@ -312,8 +326,11 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         self.evaluated =
             (!at_break && !twin.needs_values && !twin.is_bare()).then_some(twin.counters.solves - solves);
         let (step, arrived) = (self.step, &self.arrived);
+        // Prescribed functions are mostly entire, and their terms fall otherwise.
+        let is_own = !series.prescribed_goes_on(step.1, FEWEST, 0.0);
         let missed = Missed::<L, B> {
             series: &series.q,
+            is_own,
             twin,
             step,
             arrived,
@@ -321,7 +338,8 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             added: &mut self.added,
             error: &mut self.error,
         };
-        let [size, added] = Arch::new().dispatch(missed);
+        let (tail, [size, added]) = Arch::new().dispatch(missed);
+        self.tail = tail;
         self.worth = added.after(step.1, length);
         if at_break {
             self.twin.set_time(series.time);

@@ -1,9 +1,11 @@
 //! Sums and differences of states and of their series, compiled for each set of vector instructions.
 
 use super::Transport;
+use super::tail::Tail;
 use crate::dynamics::series::lanes::{difference_whole, largest, plus, plus_whole, raise_whole};
 use crate::dynamics::series::{Bodies, Series};
 use pulp::{Simd, WithSimd};
+use std::iter::repeat;
 use triad_linalg::{fma, larger};
 
 /// x + s y.
@@ -152,12 +154,17 @@ impl<const L: usize, B: Bodies<L>> Differ<'_, L, B> {
     }
 }
 
-/// The second derivative of a polynomial.
+/// The second derivative of a polynomial, whose last two terms, the last first, stand for these further ones.
 #[inline(always)]
-fn curvature<const L: usize, B: Bodies<L>>(coefficients: &[B::Natural], tau: f64) -> B::Natural {
+fn curvature<const L: usize, B: Bodies<L>>(
+    coefficients: &[B::Natural],
+    tau: f64,
+    further: [f64; 2],
+) -> B::Natural {
     let mut second = B::zero();
-    for (k, c) in coefficients.iter().enumerate().skip(2).rev() {
-        let factor = (k * (k - 1)) as f64;
+    let further = further.into_iter().chain(repeat(0.0));
+    for ((k, c), further) in coefficients.iter().enumerate().skip(2).rev().zip(further) {
+        let factor = (k * (k - 1)) as f64 + further;
         for (second, c) in B::lanes_mut(&mut second).iter_mut().zip(B::lanes(c)) {
             for l in 0..L {
                 second[l] = fma(tau, second[l], factor * c[l]);
@@ -178,54 +185,75 @@ fn local<const L: usize, B: Bodies<L>>(
     by.map(|by| moved::<L, B>(&B::zero(), by, &missed))
 }
 
-/// What a step adds to an error and what that is in all, at its end, to be compiled likewise: eq. (11.11), from the second derivative
-/// of the series there, and that of the equations, which the twin has. The sizes of both, the whole first, are
-/// returned.
+/// An error less what the last two coefficients, the last first, tell of those that are left out.
+#[inline(always)]
+fn less_left_out<const L: usize, B: Bodies<L>>(
+    [error, rate]: &[B::Natural; 2],
+    by: [[f64; 2]; 2],
+    [last, before]: [&B::Natural; 2],
+) -> [B::Natural; 2] {
+    let less = |x: &B::Natural, by: [f64; 2]| moved::<L, B>(&moved::<L, B>(x, -by[0], last), -by[1], before);
+    [less(error, by[0]), less(rate, by[1])]
+}
+
+/// What a step adds to an error and what that is in all, at its end, to be compiled likewise: eq. (11.11), from the second
+/// derivative of the series there, and that of the equations, which the twin has. How its terms go on and the sizes of both, the whole
+/// first, are returned.
 pub(super) struct Missed<'a, const L: usize, B: Bodies<L>> {
     pub series: &'a [B::Natural],
+    /// Whether its terms are those of the motion alone, not of prescribed functions.
+    pub is_own: bool,
     pub twin: &'a Series<L, B>,
     /// Its order and size.
     pub step: (usize, f64),
     pub arrived: &'a [[B::Natural; 2]],
     /// Where the step has too few terms for the error: those of the error, and half the accelerations of the motion without it.
     pub beside: Option<[&'a [B::Natural]; 2]>,
+    /// What it adds beyond what its last terms tell.
     pub added: &'a mut [[B::Natural; 2]],
     pub error: &'a mut [[B::Natural; 2]],
 }
 
 impl<const L: usize, B: Bodies<L>> WithSimd for Missed<'_, L, B> {
-    type Output = [Size; 2];
+    type Output = (Tail, [Size; 2]);
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> [Size; 2] {
-        let Self { series, twin, step: (order, h), arrived, beside, added, error } = self;
+    fn with_simd<S: Simd>(self, _: S) -> (Tail, [Size; 2]) {
+        let Self { series, is_own, twin, step: (order, h), arrived, beside, added, error } = self;
         let p = order as f64;
         let by = [h * h / (p * (p + 1.0)), h / p];
         let mut sizes = [Size::default(); 2];
+        let tail = Tail::of::<L, B>(series, twin.stride, order, h, is_own);
+        let (left_out, further) = (tail.after(1.0), tail.accelerations());
         for (b, added) in added.iter_mut().enumerate() {
             let first = b * twin.stride;
             let terms = first..=first + order;
-            let second = curvature::<L, B>(&series[terms.clone()], h);
+            let second = curvature::<L, B>(&series[terms.clone()], h, further);
+            let last = [&series[first + order], &series[first + order - 1]];
             *added = local::<L, B>(by, &second, &twin.q[first + 2]);
-            sizes[1].raise::<L, B>(added);
+            let mut whole = less_left_out::<L, B>(added, left_out, last);
+            sizes[1].raise::<L, B>(&whole);
             if let Some([carried, half]) = beside {
-                let second = moved::<L, B>(&second, -1.0, &curvature::<L, B>(&carried[terms], h));
-                *added = local::<L, B>(by, &second, &half[b]);
+                let carried = curvature::<L, B>(&carried[terms], h, [0.0; 2]);
+                *added = local::<L, B>(by, &moved::<L, B>(&second, -1.0, &carried), &half[b]);
+                whole = less_left_out::<L, B>(added, left_out, last);
             }
-            error[b] = moved_both::<L, B>(&arrived[b], 1.0, added);
+            error[b] = moved_both::<L, B>(&arrived[b], 1.0, &whole);
             sizes[0].raise::<L, B>(&error[b]);
         }
-        [sizes[0].proven::<L, B>(error), sizes[1]]
+        (tail, [sizes[0].proven::<L, B>(error), sizes[1]])
     }
 }
 
-/// The error of a bundle within a step, of which the step itself has added these parts to positions and velocities so far; to be compiled
-/// for each set of vector instructions.
+/// The error of a bundle within a step, of which the step itself has added these parts to positions and velocities so far, and these of its
+/// last two terms; to be compiled for each set of vector instructions.
 pub(super) struct Within<'a, const L: usize, B: Bodies<L>> {
     pub transport: &'a Transport<L, B>,
     pub b: usize,
     pub tau: f64,
     pub weights: [f64; 2],
+    pub last: [&'a B::Natural; 2],
+    pub left_out: [[f64; 2]; 2],
 }
 
 impl<const L: usize, B: Bodies<L>> WithSimd for Within<'_, L, B> {
@@ -233,9 +261,10 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Within<'_, L, B> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> [B::Natural; 2] {
-        let Self { transport, b, tau, weights } = self;
+        let Self { transport, b, tau, weights, last, left_out } = self;
         let (carried, added) = (transport.at(b, tau), &transport.added[b]);
-        [0, 1].map(|k| moved::<L, B>(&carried[k], weights[k], &added[k]))
+        let whole = [0, 1].map(|k| moved::<L, B>(&carried[k], weights[k], &added[k]));
+        less_left_out::<L, B>(&whole, left_out, last)
     }
 }
 
