@@ -30,7 +30,7 @@ use friction::Frictions;
 use in_plane::InPlane;
 use nalgebra::{Matrix3, Vector3};
 use right_side::gram;
-use triad_linalg::BlockCholesky;
+use triad_linalg::{BlockCholesky, larger};
 
 /// Regularization of S where rows are redundant, relative to its diagonal.
 ///
@@ -42,8 +42,13 @@ pub const REGULARIZATION: f64 = 1e-9;
 pub(super) const NEAR_SINGULAR: f64 = 1e-9;
 /// The same where a step is to be decided by rows that hardly hold: rounding is just below.
 pub(super) const LOST: f64 = 1e-15;
-/// Steps of iterative refinement where S or an inertia is regularized.
+/// Steps of iterative refinement where S is regularized.
 const REFINEMENTS: usize = 3;
+/// Most proximal steps that take the effect of inertia regularization out again.
+pub(super) const PROXIMAL_STEPS: usize = 30;
+
+/// Part of the multipliers below which a correction is rounding.
+pub(super) const ROUNDING: f64 = 1e-15;
 
 /// Work done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
@@ -276,15 +281,27 @@ impl Elimination {
         self.solve_rows();
         self.lambda.copy_from_slice(&self.residual);
         self.apply_multipliers(system);
-        if self.regularized || self.regularizes_inertia || self.resolving {
-            for _ in 0..REFINEMENTS {
-                self.remove_regularization(system);
-                self.row_residual(system);
-                self.solve_rows();
-                for (lambda, correction) in self.lambda.iter_mut().zip(&self.residual) {
-                    *lambda += correction;
+        let steps = match (self.regularizes_inertia, self.regularized || self.resolving) {
+            (true, _) => PROXIMAL_STEPS,
+            (false, true) => REFINEMENTS,
+            (false, false) => 0,
+        };
+        let (first, mut last) = (size(&self.residual), f64::INFINITY);
+        for _ in 0..steps {
+            self.remove_regularization(system);
+            self.row_residual(system);
+            self.solve_rows();
+            for (lambda, correction) in self.lambda.iter_mut().zip(&self.residual) {
+                *lambda += correction;
+            }
+            self.apply_multipliers(system);
+            if self.regularizes_inertia && !self.regularized {
+                // Corrections shrink by the same factor each time: the next one would be size²/last.
+                let size = size(&self.residual);
+                if size * size <= ROUNDING * first * last {
+                    break;
                 }
-                self.apply_multipliers(system);
+                last = size;
             }
         }
     }
@@ -382,6 +399,11 @@ impl Elimination {
     pub fn elimination_order(&self) -> Vec<ConstraintId> {
         self.factor.order().into_iter().map(ConstraintId).collect()
     }
+}
+
+/// The largest of these numbers.
+fn size(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |most, x| larger(most, x.abs()))
 }
 
 /// Q̈ = Q̈ᵖ + (v̇, ω̇ × e_k) of a body at position q.

@@ -6,10 +6,13 @@ use crate::system::natural::{Layout, NaturalCoordinates};
 use nalgebra::{Matrix3, Vector3};
 
 /// Principal moment of inertia, relative to m l² with l the longest arm of the body's own joints, below which the inertia is
-/// regularized: S would be too ill-conditioned to be factored.
-pub const LACKING: f64 = 1e-7;
+/// regularized: S would be too ill-conditioned to be factored. It has to be small: what turns about such an axis by itself, like a wire in a
+/// hinge, is then moved by its inertia and δ, and the iteration that takes δ out again hardly gets on.
+pub const LACKING: f64 = 1e-9;
 /// δ over m l² of a body that lacks inertia — eq. (7.8).
-const REGULARIZING_INERTIA: f64 = 1e-4;
+pub const REGULARIZING_INERTIA: f64 = 1e-6;
+/// Principal moment of inertia, relative to the largest one, that is rounding: a tensor in numbers has no exact zero.
+const NONE: f64 = 1e-14;
 
 /// Arm, in lengths of the mechanism, below which none is taken for the radius of gyration in a measure of lengths: radii that
 /// differ by more would hide rows behind rounding, as masses do.
@@ -65,7 +68,7 @@ impl RigidBody {
         let half = 0.5 * j.sum();
         // A free body needs help only where a moment is missing.
         let scale = body.mass * arm * arm;
-        let lacks = j.min() < LACKING * scale || (j.min() == 0.0 && scale == 0.0);
+        let lacks = j.min() < LACKING * scale || (j.min() <= NONE * j.max() && scale == 0.0);
         let scale = if scale == 0.0 { j.max().max(body.mass * length * length) } else { scale };
         Self {
             mass: body.mass,

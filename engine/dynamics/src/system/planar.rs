@@ -8,7 +8,7 @@
 
 use crate::model::motion::{Curve, VectorCurve};
 use crate::model::{BodyRef, JointGeometry, ModelJoint};
-use crate::system::body::{LACKING, PlanarPose, RigidBody};
+use crate::system::body::{LACKING, PlanarPose, REGULARIZING_INERTIA, RigidBody};
 use crate::system::feature::{Difference, Target};
 use crate::system::index::FeatureId;
 use crate::system::natural::NaturalCoordinates;
@@ -19,9 +19,6 @@ use triad_linalg::orthonormal_basis;
 
 /// Difference up to which unit vectors are the same and components are zero: rounding of an assembled start.
 const ALIKE: f64 = 1e-11;
-/// δ over m l² of such a body — eq. (7.8). Two refinements take its effect out again; with less, the inverses of blocks would
-/// lose too many digits.
-const REGULARIZING_INERTIA: f64 = 1e-5;
 
 /// Directions in the plane and its normal, as columns.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -21,4 +21,5 @@ mod references;
 mod series;
 mod series_catalogue;
 mod skips;
+mod slender;
 mod stiff;

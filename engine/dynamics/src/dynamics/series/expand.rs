@@ -3,15 +3,12 @@
 use super::lanes::{raise_whole, times};
 use super::recurrence::real;
 use super::{Bodies, Series};
+use crate::dynamics::elimination::{PROXIMAL_STEPS, ROUNDING};
 use pulp::{Simd, WithSimd};
 use triad_linalg::{fma, larger};
 
 /// Iterative refinements of a solution with the factor of a regularized S, which take its effect out again.
 const REFINEMENTS: usize = 2;
-/// Most proximal steps that take the effect of inertia regularization out again.
-const PROXIMAL_STEPS: usize = 3;
-/// Part of the multipliers below which a correction is rounding.
-const ROUNDING: f64 = 1e-15;
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Expands the motion about the state up to Q_order and λ_(order−2), with the present factor of S, or up to the

@@ -1,0 +1,102 @@
+//! Bodies with little or no inertia about an axis: wires, and shafts that joints turn.
+
+#![allow(clippy::unwrap_used)]
+
+use nalgebra::{Rotation3, Vector3};
+use serde_json::{Value, json};
+use triad_engine::run::Simulation;
+use triad_engine::scene::{IntegratorKind, Scene};
+
+const WAYS: [IntegratorKind; 3] = [IntegratorKind::Taylor, IntegratorKind::Dop853, IntegratorKind::Radau];
+
+fn run(value: &Value, way: IntegratorKind) -> Simulation {
+    let scene = Scene::from_json(&value.to_string()).unwrap().integrator(way);
+    let mut run = Simulation::new(&scene).unwrap();
+    run.advance_to(1.0).unwrap();
+    run
+}
+
+/// A wire in a hinge, about which it has hardly any inertia, turned by a motor: ω = M t / I, however thin it is. In space beside a
+/// pendulum that does not move.
+#[test]
+fn a_wire_turns_by_its_own_inertia() {
+    for (inertia, turned) in [(1e-5, 1.0), (2e-8, 1.0), (6e-9, 10.0)] {
+        for way in WAYS {
+            let value = json!({
+                "name": "wire", "gravity": [0, 0, 0],
+                "bodies": [
+                    {"name": "A", "mass": 1, "inertia": {"principal": [0.01, 0.1, 0.1]}, "center_of_mass": [0.5, 0, 0]},
+                    {"name": "B", "mass": 1, "inertia": {"principal": [inertia, 1.0 / 12.0, 1.0 / 12.0]}, "position": [1.5, 0, 0]}
+                ],
+                "joints": [
+                    {"name": "p", "type": "revolute", "body_i": "ground", "body_j": "A", "point": [0, 0, 0], "axis": [0, 1, 0]},
+                    {"name": "q", "type": "revolute", "body_i": "A", "body_j": "B", "point": [1, 0, 0], "axis": [1, 0, 0]}
+                ],
+                "loads": [{"name": "m", "type": "torsion", "joint": "q", "torque": turned * inertia}],
+                "simulation": {"duration": 1}
+            });
+            let run = run(&value, way);
+            let omega = run.frame().bodies[1].angular_velocity[0];
+            assert!((omega.abs() - turned).abs() < 1e-6 * turned, "{inertia:e}, {way}: {omega}");
+        }
+    }
+}
+
+/// A torque turns two wheels that a slender shaft connects by universal joints, bent alike: the shaft has no inertia about its axis, the
+/// wheels have some, and little: α = M / 2J.
+#[test]
+fn a_shaft_without_inertia_about_its_axis_turns_small_wheels() {
+    let (sine, cosine) = (libm::sin(0.2), libm::cos(0.2));
+    for wheel in [1e-2, 1e-5, 1e-6] {
+        for way in WAYS {
+            let body = |name: &str, at: f64| json!({"name": name, "mass": 0.1, "inertia": {"principal": [wheel, wheel, wheel]}, "position": [at * cosine, at * sine, 0]});
+            let value = json!({
+                "name": "cardan", "gravity": [0, 0, 0],
+                "bodies": [
+                    body("W1", 0.0),
+                    {"name": "R", "mass": 1, "inertia": {"principal": [0, 1.0 / 12.0, 1.0 / 12.0]}, "position": [0.5 * cosine, 0.5 * sine, 0],
+                     "orientation": {"u": [cosine, sine, 0], "v": [-sine, cosine, 0]}},
+                    body("W2", 1.0)
+                ],
+                "joints": [
+                    {"name": "b1", "type": "revolute", "body_i": "ground", "body_j": "W1", "point": [0, 0, 0], "axis": [1, 0, 0]},
+                    {"name": "u1", "type": "universal", "body_i": "W1", "body_j": "R", "point": [0, 0, 0], "axes": [[0, 1, 0], [0, 0, 1]]},
+                    {"name": "u2", "type": "universal", "body_i": "R", "body_j": "W2", "point": [cosine, sine, 0], "axes": [[0, 0, 1], [0, 1, 0]]},
+                    {"name": "b2", "type": "revolute", "body_i": "ground", "body_j": "W2", "point": [cosine, sine, 0], "axis": [1, 0, 0]}
+                ],
+                "loads": [{"name": "m", "type": "moment", "body": "W1", "moment": [10.0 * wheel, 0, 0]}],
+                "simulation": {"duration": 1}
+            });
+            let run = run(&value, way);
+            let omega = run.frame().bodies[0].angular_velocity[0];
+            assert!((omega - 5.0).abs() < 1e-7, "{wheel:e}, {way}: {omega}");
+        }
+    }
+}
+
+/// A tensor in numbers has no exact zero: a slender rod that flies keeps turning.
+#[test]
+fn a_free_rod_whose_tensor_is_rounded_turns() {
+    for k in 0..40 {
+        let (a, b) = (0.37 * f64::from(k), 0.71 * f64::from(k));
+        let axis = [libm::cos(a) * libm::cos(b), libm::sin(a) * libm::cos(b), libm::sin(b)];
+        let tensor: Vec<Vec<f64>> = (0..3)
+            .map(|i| (0..3).map(|j| 4.5e-5 * (f64::from(u8::from(i == j)) - axis[i] * axis[j])).collect())
+            .collect();
+        let across = [-axis[1], axis[0], 0.0];
+        let value = json!({
+            "name": "rod", "gravity": [0, 0, -9.81],
+            "bodies": [{"name": "A", "mass": 1, "inertia": {"tensor": tensor}, "angular_velocity": across}],
+            "simulation": {"duration": 1}
+        });
+        for way in WAYS {
+            let run = run(&value, way);
+            let omega = Vector3::from(run.frame().bodies[0].angular_velocity);
+            // About its own axis nothing says how it turns.
+            let (axis, across) = (Vector3::from(axis), Vector3::from(across));
+            let turned = Rotation3::new(across) * axis;
+            let off = (omega - turned * turned.dot(&omega) - across).norm();
+            assert!(off < 1e-8, "{k}, {way}: {off:e}");
+        }
+    }
+}
