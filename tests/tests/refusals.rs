@@ -34,6 +34,21 @@ fn good() -> Value {
     })
 }
 
+/// Two rotors that moments set in motion against each other, in steps that are too long to tell how often.
+fn spun() -> Value {
+    let body = |name: &str| json!({ "name": name, "mass": 1, "inertia": { "principal": [1, 1, 1] } });
+    let joint = |name: &str, i: &str, j: &str| json!({ "name": name, "type": "revolute", "body_i": i, "body_j": j, "point": [0, 0, 0], "axis": [0, 0, 1] });
+    let load = |name: &str, body: &str, moment: f64| json!({ "name": name, "type": "moment", "body": body, "moment": [0, 0, moment] });
+    json!({
+        "name": "spun", "gravity": [0, 0, 0],
+        "bodies": [body("b"), body("c")],
+        "joints": [joint("j", "ground", "b"), joint("k", "b", "c")],
+        "loads": [load("one way", "c", 13.6), load("and the other", "b", -13.6)],
+        "events": [{ "name": "turn", "of": { "type": "angle", "joint": "k" }, "value": 6.3 }],
+        "simulation": { "duration": 1, "integrator": "dop853", "step": 0.5 }
+    })
+}
+
 /// The good scene with another value at a place, which may be new.
 fn with(place: &str, value: Value) -> Value {
     let mut scene = good();
@@ -252,8 +267,8 @@ fn constraints_that_cannot_be_satisfied() {
 #[allow(clippy::too_many_lines, reason = "a list")]
 fn runs_that_cannot_go_on() {
     let mut met = Refusals::new(variants!(
-        EngineError: Scene, Catalogue, Model, Uniqueness, Constraint, CustomLoad, StepTooSmall, Diverged, NoConvergence, Stalled,
-        Undetermined, Integrator, StepLimit, TimeOutside, UnknownName
+        EngineError: Scene, Catalogue, Model, Uniqueness, Constraint, CustomLoad, StepTooSmall, Diverged, TurnsUnknown,
+        NoConvergence, Stalled, Undetermined, Integrator, StepLimit, TimeOutside, UnknownName
     ));
     let mut meet = |tried: &str, error: &EngineError| {
         met.meet(tried, error, error.code(), error.pointer().as_deref(), &error.hint());
@@ -284,6 +299,7 @@ fn runs_that_cannot_go_on() {
     window.simulation.integrator = "rattle".parse().unwrap();
     window.simulation.step = Some(0.01);
     meet("a singular position by implicit steps", &run_error(&window));
+    meet("a step that hides turns of a joint", &run_error(&scene(&spun())));
     let mut short = Simulation::new(&catalogue::scene("simple-pendulum").unwrap()).unwrap();
     short.set_step_limit(2);
     meet("two steps", &short.advance_to(10.0).unwrap_err());

@@ -88,6 +88,11 @@ pub trait OdeSystem {
         0.0
     }
 
+    /// Whether it is known how many whole turns joints have made since the last step at the state that was evaluated last.
+    fn knows_turns(&self) -> bool {
+        true
+    }
+
     /// Called once after each accepted step, with ẏ = f(t, y) at its end. It may move y onto the constraints; then it must
     /// evaluate ẏ again unless the change was negligible.
     fn after_step(&mut self, t: f64, y: &mut [f64], rate: &mut [f64]);
@@ -126,6 +131,9 @@ impl<S: OdeSystem + ?Sized> OdeSystem for &mut S {
     }
     fn magnification(&self) -> f64 {
         (**self).magnification()
+    }
+    fn knows_turns(&self) -> bool {
+        (**self).knows_turns()
     }
     fn power(&self) -> Option<f64> {
         (**self).power()

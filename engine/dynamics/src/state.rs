@@ -67,6 +67,10 @@ pub struct State {
     /// Prescribed vectors and numbers with their derivatives.
     curves: Vec<Jet<Vector3<f64>>>,
     targets: Vec<Jet<f64>>,
+    /// When the last accepted step ended, s, where whole turns are counted by rates from there on.
+    counted: Option<f64>,
+    /// The time at which it was told which angles are expected, s.
+    told: Option<f64>,
     stage: Stage,
 }
 
@@ -86,6 +90,8 @@ impl State {
             angles: vec![AngleState::default(); system.angles.len()],
             curves: vec![[Vector3::zeros(); 3]; system.curves.len()],
             targets: vec![[0.0; 3]; system.targets.len()],
+            counted: None,
+            told: None,
             stage: Stage::Time,
         };
         state.set_time(system, 0.0);
@@ -115,7 +121,16 @@ impl State {
         for (jet, target) in self.targets.iter_mut().zip(&system.targets) {
             *jet = target.at(t);
         }
+        let (since, told) = (self.since(t), self.told == Some(t));
+        for angle in self.angles.iter_mut().filter(|angle| !(told && angle.told)) {
+            (angle.expected, angle.told) = (angle.foreseen(since), false);
+        }
         self.stage = Stage::Time;
+    }
+
+    /// The time t less that from which whole turns are counted by rates, s; zero where they are not.
+    fn since(&self, t: f64) -> f64 {
+        self.counted.map_or(0.0, |counted| t - counted)
     }
 
     /// Takes over the positions q; velocities are to follow.
@@ -177,7 +192,7 @@ impl State {
             }
         }
         for (state, angle) in self.angles.iter_mut().zip(&system.angles) {
-            state.set_position(angle.features().map(|f| self.features[f.index()].value));
+            state.set_position(angle.features().map(|f| self.features[f.index()].value), state.expected);
         }
         self.stage = Stage::Positions;
     }
@@ -204,12 +219,16 @@ impl State {
                 }
             };
         }
+        let since = self.since(self.time);
         for (state, angle) in self.angles.iter_mut().zip(&system.angles) {
             let features = angle.features();
             state.set_velocity(
                 features.map(|f| self.features[f.index()].value),
                 features.map(|f| self.features[f.index()].rate),
             );
+            if since != 0.0 {
+                state.count_by_rates(since);
+            }
         }
         self.stage = Stage::Velocities;
     }
@@ -251,18 +270,63 @@ impl State {
         &self.angles
     }
 
-    /// Counts whole turns of angles from the current positions on.
+    /// Counts whole turns of angles from the current positions on: to others from which no angle is half a turn away.
     pub fn commit_revolutions(&mut self) {
+        self.counted = None;
         for angle in &mut self.angles {
-            angle.reference = angle.value;
+            angle.count_from(angle.value, 0.0);
+        }
+    }
+
+    /// Counts whole turns of angles from the current state on, by rates: at the end of a step, however far the next one turns them. Where
+    /// there are no velocities, as at the end of a step to where there is no state, as [`Self::commit_revolutions`].
+    pub fn commit_motion(&mut self) {
+        if self.stage < Stage::Velocities {
+            self.commit_revolutions();
+            return;
+        }
+        self.counted = Some(self.time);
+        for angle in &mut self.angles {
+            angle.count_from(angle.value, angle.rate);
         }
     }
 
     /// Counts whole turns of angles from the given values on, rad.
     pub fn set_revolutions(&mut self, values: impl Iterator<Item = f64>) {
+        self.counted = None;
         for (angle, value) in self.angles.iter_mut().zip(values) {
-            angle.reference = value;
+            angle.count_from(value, 0.0);
         }
+    }
+
+    /// Counts whole turns of angles from another state of the same rows on, by rates.
+    pub fn follow_motion(&mut self, from: &Self) {
+        self.counted = Some(from.time);
+        for (angle, from) in self.angles.iter_mut().zip(&from.angles) {
+            angle.count_from(from.value, from.rate);
+        }
+    }
+
+    /// Says to less than half a turn which angle, rad, the positions have that are taken over next, and again at the same time.
+    pub fn expect_angle(&mut self, angle: usize, expected: f64) {
+        self.told = Some(self.time);
+        (self.angles[angle].expected, self.angles[angle].told) = (expected, true);
+    }
+
+    /// What angles are to less than half a turn at time t, rad, as far as that is known before positions are.
+    pub fn expected_angles(&self, t: f64) -> impl Iterator<Item = f64> {
+        let (since, told) = (self.since(t), self.told == Some(t));
+        self.angles.iter().map(
+            move |angle| {
+                if told && angle.told { angle.expected } else { angle.foreseen(since) }
+            },
+        )
+    }
+
+    /// Whether whole turns since the last accepted step are known, of all angles on which something but outputs depends.
+    pub fn knows_turns(&self, system: &System) -> bool {
+        let since = self.since(self.time);
+        self.angles[..system.needed_angles].iter().all(|angle| angle.is_counted(since))
     }
 
     /// Counts whole turns of angles from the angles of another state of the same rows on.

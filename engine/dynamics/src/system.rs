@@ -140,6 +140,8 @@ pub struct System {
     pub angles: Vec<Angle>,
     /// The joint of each angle.
     pub angle_joints: Vec<String>,
+    /// How many of them rows, loads or events depend on. The others are only written: no step may depend on these.
+    pub needed_angles: usize,
     /// Loads besides gravity.
     pub loads: Vec<SystemLoad>,
     /// Friction of loads that the reaction of their joint loads.
@@ -182,6 +184,7 @@ impl System {
             model.loads.iter().map(|l| SystemLoad::new(&model, l, &mut builder)).collect();
         let event_functions =
             model.events.iter().map(|event| EventFunction::new(&model, event, &mut builder)).collect();
+        let needed_angles = builder.angles.len();
         for joint in model.joints.iter().filter(|joint| wants_joint(&model.settings.outputs, &joint.name)) {
             if joint.has_angle() {
                 builder.angle(joint);
@@ -201,6 +204,7 @@ impl System {
             targets,
             angles,
             angle_joints,
+            needed_angles,
             loads,
             frictions: DryFriction::all(&model),
             event_functions,

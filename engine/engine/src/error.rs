@@ -72,6 +72,18 @@ pub enum EngineError {
         /// What is known of the last good state.
         last: LastGood,
     },
+    /// Steps of one size are too long to count the turns of a joint.
+    #[error(
+        "the integration stops at t = {time:.6} s: within a step of {step:.1e} s the turning of a joint changes so much that its whole turns are not known{last}"
+    )]
+    TurnsUnknown {
+        /// Time, s.
+        time: f64,
+        /// The step that was tried, s.
+        step: f64,
+        /// What is known of the last good state.
+        last: LastGood,
+    },
     /// The equations of an implicit step cannot be solved.
     #[error(
         "the integration stops at t = {time:.6} s: the equations of a step of {step:.1e} s cannot be solved{last}"
@@ -168,6 +180,7 @@ impl EngineError {
         match stop {
             StopReason::StepTooSmall { time, step } => Self::StepTooSmall { time, step, last },
             StopReason::NotFinite { time } => Self::Diverged { time, last },
+            StopReason::TurnsUnknown { time, step } => Self::TurnsUnknown { time, step, last },
             StopReason::NoConvergence { time, step } => Self::NoConvergence { time, step, last },
             StopReason::Undetermined { time } => Self::Undetermined { time, last },
             StopReason::Stalled { time, step } => Self::Stalled { time, step, last },
@@ -209,6 +222,7 @@ impl EngineError {
             Self::CustomLoad { error, .. } => error.code(),
             Self::StepTooSmall { .. } => "step-too-small",
             Self::Diverged { .. } => "diverged",
+            Self::TurnsUnknown { .. } => "turns-unknown",
             Self::NoConvergence { .. } => "no-convergence",
             Self::Stalled { .. } => "stalled",
             Self::Undetermined { .. } => "undetermined-motion",
@@ -239,6 +253,7 @@ impl EngineError {
         match self {
             Self::StepTooSmall { last, .. }
             | Self::Diverged { last, .. }
+            | Self::TurnsUnknown { last, .. }
             | Self::NoConvergence { last, .. }
             | Self::Stalled { last, .. }
             | Self::Undetermined { last, .. }
@@ -281,6 +296,9 @@ impl EngineError {
                 "Loosen the tolerance, use projection as the stabilization, and look at the last good state for a \
                  joint that locks or a body that is far too light."
                     .to_owned()
+            }
+            Self::TurnsUnknown { .. } => {
+                "Take shorter steps, or none of one size: methods that choose their steps count turns.".to_owned()
             }
             Self::NoConvergence { .. } => {
                 "Tighten the tolerance, which shortens the steps; through singular positions use taylor or dop853 with \

@@ -302,9 +302,13 @@ impl OdeSystem for Mechanism {
         self.accelerations(t, y).write(&mut rate[n..]);
     }
 
+    fn knows_turns(&self) -> bool {
+        self.state.knows_turns(&self.system)
+    }
+
     /// Counts revolutions from here, and moves y onto the constraints where projection keeps them.
     fn after_step(&mut self, t: f64, y: &mut [f64], rate: &mut [f64]) {
-        self.state.commit_revolutions();
+        self.state.commit_motion();
         let method = self.system.model.settings.constraint_method;
         if !matches!(method, ConstraintMethod::Projection | ConstraintMethod::Partitioning) {
             return;

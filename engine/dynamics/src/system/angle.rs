@@ -1,7 +1,7 @@
 //! Angles of joints, of either sign and any number of turns — THEORY section 5.
 //!
 //! θ is the angle about the axis from the vector a₁ of body i to the vector b of body j, measured with a₂ = s × a₁ as
-//! θ = atan2(a₂ · b, a₁ · b). Whole turns are counted from the last accepted step.
+//! θ = atan2(a₂ · b, a₁ · b). Whole turns are counted from the last accepted step on, by the rates there and now.
 
 use crate::system::index::FeatureId;
 

@@ -265,6 +265,12 @@ impl Stepper for Augmented {
                 continue;
             };
             let (error, jerk) = self.error(h, &state);
+            // The end was evaluated last.
+            let counted = mechanism.knows_turns();
+            if self.fixed && !counted {
+                return Err(StopReason::TurnsUnknown { time: self.last.t, step: h });
+            }
+            let error = if counted { error } else { f64::INFINITY };
             let by = (SAFETY * libm::pow(error.max(MIN_ERROR), -1.0 / 3.0)).clamp(CHANGE.0, CHANGE.1);
             if error >= 1.0 && !self.fixed {
                 self.last.steps.rejected += 1;
@@ -283,7 +289,7 @@ impl Stepper for Augmented {
             q.copy_from_slice(self.state[0].as_slice());
             q_dot.copy_from_slice(self.state[1].as_slice());
             mechanism.set_state(*t, y);
-            mechanism.state.commit_revolutions();
+            mechanism.state.commit_motion();
             return Ok(());
         }
     }

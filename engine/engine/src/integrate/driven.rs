@@ -86,7 +86,7 @@ impl Stepper for Driven {
     fn step(&mut self, mechanism: &mut Mechanism, end: f64) -> Result<(), StopReason> {
         loop {
             let h = self.last.next_size(self.h, end)?;
-            let missed = self.attempt(mechanism, h);
+            let missed = self.attempt(mechanism, h).filter(|_| mechanism.knows_turns());
             let by = missed.map_or(CHANGE.0, |missed| CAUTION * libm::cbrt(FORESEEN / missed));
             if missed.is_none_or(|missed| missed > FORESEEN && !self.fixed) {
                 if self.fixed || h < MIN_RETRY * (1.0 + self.last.t.abs()) {
@@ -102,7 +102,7 @@ impl Stepper for Driven {
             self.rate_old.copy_from_slice(&self.rate);
             let StepRecord { t, y, .. } = &self.last;
             mechanism.rhs(*t, y, &mut self.rate);
-            mechanism.state.commit_revolutions();
+            mechanism.state.commit_motion();
             if self.rate.iter().any(|x| !x.is_finite()) {
                 return Err(self.last.not_finite());
             }

@@ -146,6 +146,9 @@ impl Explicit {
         }
         // What is not finite there ends the next step.
         self.reach_end(system, h, end);
+        if is_finite(&self.end_rate) && !system.knows_turns() {
+            return Err(StopReason::TurnsUnknown { time: self.last.t, step: h });
+        }
         self.accept(system, h, end);
         Ok(())
     }
@@ -164,7 +167,8 @@ impl Explicit {
             self.attempt(system, h);
             let error =
                 self.tableau.error(h, &self.k, &self.last.y, &self.trial, tolerance) * system.magnification();
-            let error = if error < 1.0 && !self.reach_end(system, h, end) { f64::NAN } else { error };
+            let arrives = error >= 1.0 || (self.reach_end(system, h, end) && system.knows_turns());
+            let error = if arrives { error } else { f64::NAN };
             if error < 1.0 {
                 let grown = (SAFETY * libm::pow(error.max(MIN_ERROR), power)).clamp(least, greatest);
                 let next = h * if rejected { grown.min(1.0) } else { grown };
@@ -203,6 +207,8 @@ impl Explicit {
         let error = loop {
             self.attempt(system, h);
             let error = h * Ode45Control::error(&self.k, &self.last.y, &self.trial) * system.magnification();
+            // The last stage is at the end of the step.
+            let error = if error <= control.relative && !system.knows_turns() { f64::NAN } else { error };
             if error <= control.relative {
                 break error;
             }
@@ -376,7 +382,7 @@ impl Stepper for Explicit {
         self.take_back();
         self.rate.copy_from_slice(&self.k[0]);
         mechanism.set_state(self.last.t, &self.last.y);
-        mechanism.state.commit_revolutions();
+        mechanism.state.commit_motion();
     }
 
     fn boxed(&self) -> Box<dyn Stepper> {

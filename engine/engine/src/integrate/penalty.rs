@@ -68,9 +68,13 @@ impl OdeSystem for Penalized<'_> {
         rate[n..].copy_from_slice(right.as_slice());
     }
 
+    fn knows_turns(&self) -> bool {
+        self.mechanism.knows_turns()
+    }
+
     fn after_step(&mut self, t: f64, y: &mut [f64], _: &mut [f64]) {
         self.mechanism.set_state(t, y);
-        self.mechanism.state.commit_revolutions();
+        self.mechanism.state.commit_motion();
     }
 }
 

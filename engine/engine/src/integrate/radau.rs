@@ -275,7 +275,7 @@ impl OdeMethod for Radau {
             let by = (factor * libm::pow(error.max(MIN_ERROR), self.exponent)).clamp(CHANGE.0, CHANGE.1);
             let by = by.min((CONTRACTION / solved.contraction).max(MIN_FOR_CONTRACTION));
             if error < 1.0 || self.fixed {
-                if !self.reach_end(system, h, end) {
+                if !(self.reach_end(system, h, end) && system.knows_turns()) {
                     self.retry_shorter(system, h)?;
                     rejected = true;
                     continue;

@@ -134,7 +134,7 @@ impl Rattle {
         state.set_natural_positions(system, &self.position);
         state.set_natural_velocities(system, &self.velocity);
         elimination.linearize(system, state);
-        self.other.copy_revolutions(state);
+        self.other.follow_motion(state);
     }
 
     /// One step of RATTLE of size h from time t. False if its equations cannot be solved.
@@ -203,7 +203,7 @@ impl Rattle {
         here.set_time(system, t);
         here.set_natural_positions(system, &self.position);
         here.set_natural_velocities(system, &self.half);
-        here.commit_revolutions();
+        here.commit_motion();
         elimination.linearize(system, here);
         elimination.set_forces(system, here);
         here.residuals(system, true, &mut self.residuals);
@@ -212,7 +212,7 @@ impl Rattle {
         }
         self.other.set_natural_positions(system, &self.position);
         self.other.set_natural_velocities(system, &self.half);
-        self.other.copy_revolutions(here);
+        self.other.follow_motion(here);
         elimination.increment(system, here, &self.forces, &self.other, true, &self.residuals);
         let mut finite = true;
         for (index, velocity) in self.velocity.iter_mut().enumerate() {

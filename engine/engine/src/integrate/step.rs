@@ -59,6 +59,13 @@ pub enum StopReason {
     },
     /// The trapezoidal rule was asked for without the augmented Lagrangian, which is solved together with it.
     Alone,
+    /// A joint turns faster or slower at the end of a step than at its start by so much that its whole turns are not known.
+    TurnsUnknown {
+        /// Time, s.
+        time: f64,
+        /// The step that was tried, s.
+        step: f64,
+    },
     /// The equations of an implicit step cannot be solved.
     NoConvergence {
         /// Time, s.

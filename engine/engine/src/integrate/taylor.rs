@@ -102,7 +102,7 @@ impl Stepper for Taylor {
         *h = *t - *t_old;
         if !system.angles.is_empty() {
             mechanism.set_state(*t, y);
-            mechanism.state.commit_revolutions();
+            mechanism.state.commit_motion();
         }
         Ok(())
     }
@@ -141,7 +141,7 @@ impl Stepper for Taylor {
         self.islands.iter().for_each(|island| island.interpolate(system, *t, y));
         if !system.angles.is_empty() {
             mechanism.set_state(*t, y);
-            mechanism.state.commit_revolutions();
+            mechanism.state.commit_motion();
         }
     }
 

@@ -105,7 +105,7 @@ impl Simulation {
         self.before_branching = None;
         self.off_at_start.take();
         self.mechanism.set_state(time, y);
-        self.mechanism.state.commit_revolutions();
+        self.mechanism.state.commit_motion();
         self.companion = Companion::start(self.kind, &self.mechanism, time, y);
         self.integrator = Integrator::start(self.kind, &mut self.mechanism, time, y);
         self.set_current(time, y);

@@ -80,7 +80,7 @@ impl Simulation {
     ) -> Result<Self, EngineError> {
         mechanism.set_state(0.0, &start);
         // From where the joints were closed, not from what was given of them: the first step may be half a turn from there.
-        mechanism.state.commit_revolutions();
+        mechanism.state.commit_motion();
         let state = &mechanism.state;
         let (current, start_energy) = (CachedState::new(0.0, &start, state), state.energy(&mechanism.system));
         check_loads(&mechanism)?;

@@ -114,7 +114,7 @@ impl CachedState {
         self.results = std::mem::take(&mut self.results).spare();
         self.time = time;
         write(mechanism, &mut self.y);
-        self.state.go_on(mechanism.state.angles().iter().map(|angle| angle.reference));
+        self.state.go_on(mechanism.state.expected_angles(time));
     }
 
     /// Changes to a snapshot of the same run, with its error where that is known; no work is added to what the run has counted.

@@ -23,3 +23,4 @@ mod series_catalogue;
 mod skips;
 mod slender;
 mod stiff;
+mod turns;

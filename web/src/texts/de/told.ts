@@ -201,6 +201,8 @@ export const told: Record<string, string> = {
     "Lockere die Toleranz, und sieh dir den letzten guten Zustand an.",
   "Loosen the tolerance, use projection as the stabilization, and look at the last good state for a joint that locks or a body that is far too light.":
     "Lockere die Toleranz, nimm Projektion als Stabilisierung, und such im letzten guten Zustand nach einem Gelenk, das klemmt, oder einem viel zu leichten Körper.",
+  "Take shorter steps, or none of one size: methods that choose their steps count turns.":
+    "Nimm kürzere Schritte oder keine von fester Größe: Verfahren, die ihre Schritte selbst wählen, zählen Umdrehungen.",
   "Tighten the tolerance, which shortens the steps; through singular positions use taylor or dop853 with projection.":
     "Verschärf die Toleranz, das verkürzt die Schritte; durch singuläre Lagen nimm taylor oder dop853 mit Projektion.",
   "Use projection as the stabilization, with taylor or dop853.":

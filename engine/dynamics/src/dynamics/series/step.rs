@@ -21,8 +21,8 @@ const MAX_VIOLATION: f64 = 100.0;
 const GOES_ON: f64 = 0.01;
 /// Most halvings of a step.
 const MAX_REJECTED: u64 = 12;
-/// The most that a joint angle turns in a step, rad: less than half a turn, so that whole turns can be counted from the
-/// end of a step.
+/// The most that a joint angle on which something depends turns in a step, rad: less than half a turn, so that whole turns can be counted
+/// from the end of a step.
 const MAX_TURN: f64 = 3.0;
 /// A term of the series at the step's end that is three orders lower must allow a step shorter by 1 + this / (order − 3) for a
 /// higher order to pay: the work of a step grows with the power 1.0 to 1.3 of the order (measured, docs/PERFORMANCE.md), and

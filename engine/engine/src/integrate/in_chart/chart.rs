@@ -260,6 +260,13 @@ impl Chart {
         self.numbers.commit(found.p.as_slice());
     }
 
+    /// Says at time t which angles of joints belong to what was found there, for a state that is set without the chart.
+    pub fn tell(&self, mechanism: &mut Mechanism, t: f64, found: &Guess) {
+        let Mechanism { system, state, .. } = &mut *mechanism;
+        state.set_time(system, t);
+        self.numbers.tell(mechanism, found.p.as_slice());
+    }
+
     /// Writes η̈ = L p̈ at the state in place, which is the guess; `moved` says that the positions are others than last time.
     pub fn accelerate(&mut self, mechanism: &mut Mechanism, guess: &Guess, moved: bool, out: &mut [f64]) {
         self.numbers.accelerate(mechanism, &guess.p_dot, moved, &mut self.change);

@@ -81,11 +81,19 @@ impl Numbers {
         match self {
             Self::Coordinates => state.set_positions(system, p),
             Self::Joints { tree, .. } => {
+                tree.tell(state, p);
                 let Some(positions) = tree.place(p) else { return false };
                 state.set_natural_positions(system, positions);
             }
         }
         true
+    }
+
+    /// Says which angles of joints belong to p at the time of the state in place, where they do.
+    pub fn tell(&self, mechanism: &mut Mechanism, p: &[f64]) {
+        if let Self::Joints { tree, .. } = self {
+            tree.tell(&mut mechanism.state, p);
+        }
     }
 
     /// Gives it the velocities ṗ, at the positions in place.

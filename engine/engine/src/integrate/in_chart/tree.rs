@@ -6,12 +6,22 @@ use super::spatial::{Placement, Twist};
 use nalgebra::{Matrix3, Vector3};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::model::BodyRef;
-use triad_dynamics::state::BodyState;
+use triad_dynamics::state::{BodyState, State};
 use triad_dynamics::system::System;
+use triad_dynamics::system::index::FeatureId;
 use triad_dynamics::system::natural::NaturalCoordinates;
 
-/// Turn of a joint within a step above which whole turns of angles could be miscounted, rad.
+/// Turn of a joint within a step above which whole turns of angles that no coordinate tells could be miscounted, rad.
 const LONGEST_TURN: f64 = 1.5;
+
+/// The angle of a joint as a coordinate of the tree, times a factor and from an offset on.
+#[derive(Clone, Copy, Debug)]
+struct Told {
+    angle: usize,
+    place: usize,
+    factor: f64,
+    offset: f64,
+}
 
 /// The tree, with the placements and velocities that it was given last.
 #[derive(Clone, Debug)]
@@ -21,8 +31,10 @@ pub struct Tree {
     /// How many of them are joints: the others are bodies that move freely.
     joints: usize,
     length: f64,
-    /// Angles that must not turn far within a step, with their values at its start: none where nothing counts turns.
+    /// Angles that must not turn far within a step, with their values at its start: none where coordinates tell all turns that count.
     watched: Vec<(usize, f64)>,
+    /// Angles that coordinates tell.
+    told: Vec<Told>,
     placements: Vec<Placement>,
     velocities: Vec<Twist>,
     /// Twist of each coordinate.
@@ -42,10 +54,14 @@ impl Tree {
         let places: Vec<Placement> = mechanism.state.bodies().iter().map(placement).collect();
         let (edges, joints) = span(system, &places);
         let coordinates = edges.last().map_or(0, |edge| edge.range().end);
-        let counts = !system.angles.is_empty();
-        let watched = edges.iter().filter(|_| counts).flat_map(Edge::angles).map(|place| (place, 0.0));
+        let told: Vec<Told> =
+            (0..system.angles.len()).filter_map(|k| Told::new(mechanism, &edges, k)).collect();
+        let watches =
+            told.iter().filter(|told| told.angle < system.needed_angles).count() < system.needed_angles;
+        let watched = edges.iter().filter(|_| watches).flat_map(Edge::angles).map(|place| (place, 0.0));
         Self {
             watched: watched.collect(),
+            told,
             length: system.length,
             placements: places,
             velocities: vec![Twist::zero(); bodies],
@@ -61,6 +77,12 @@ impl Tree {
     /// How each body moves against another, each after the one of its parent.
     pub fn edges(&self) -> &[Edge] {
         &self.edges
+    }
+
+    /// The coordinate that alone turns one of two bodies against the other, and the angle about an axis of the first one for each unit of it,
+    /// at the state in place.
+    pub fn turn_between(&self, state: &State, bodies: [BodyRef; 2], axis: FeatureId) -> Option<(usize, f64)> {
+        turn_between(&self.edges, state, bodies, axis)
     }
 
     /// Number of joints that hold by themselves.
@@ -100,6 +122,13 @@ impl Tree {
     /// Whether no joint has turned too far since the last step, at coordinates by their places.
     pub fn reaches(&self, s: impl Fn(usize) -> f64) -> bool {
         self.watched.iter().all(|&(place, start)| (s(place) - start).abs() <= LONGEST_TURN)
+    }
+
+    /// Says which angles belong to the coordinates s at the state's time, however many turns those have made.
+    pub fn tell(&self, state: &mut State, s: &[f64]) {
+        for &Told { angle, place, factor, offset } in &self.told {
+            state.expect_angle(angle, offset + factor * s[place]);
+        }
     }
 
     /// Positions of all bodies at the coordinates s; nothing if a joint has turned too far since the last step.
@@ -213,6 +242,43 @@ impl Tree {
             edge.translate(other, &mut s[edge.range()], &mut rates[edge.range()], self.length);
         }
     }
+}
+
+impl Told {
+    /// The angle of a joint at the state in place, where all coordinates are zero.
+    fn new(Mechanism { system, state, .. }: &Mechanism, edges: &[Edge], angle: usize) -> Option<Self> {
+        let joint = system.model.joints.iter().find(|joint| joint.name == system.angle_joints[angle])?;
+        let (place, factor) = turn_between(edges, state, joint.bodies, system.angles[angle].axis)?;
+        Some(Self { angle, place, factor, offset: state.angles()[angle].value })
+    }
+}
+
+/// The coordinate that alone turns one of two bodies against the other, at the state in place, and the angle about an axis of the first one
+/// for each unit of it.
+fn turn_between(
+    edges: &[Edge],
+    state: &State,
+    bodies: [BodyRef; 2],
+    axis: FeatureId,
+) -> Option<(usize, f64)> {
+    let index = |body: BodyRef| match body {
+        BodyRef::Ground => None,
+        BodyRef::Moving(body) => Some(body),
+    };
+    let [i, j] = bodies.map(index);
+    edges.iter().find_map(|edge| {
+        let own = Some(edge.body);
+        let along = if own == j && edge.parent == i {
+            1.0
+        } else if own == i && edge.parent == j {
+            -1.0
+        } else {
+            return None;
+        };
+        let (place, turn) = edge.only_turn()?;
+        let world = edge.parent.map_or(turn, |parent| state.bodies()[parent].q.arm(&turn));
+        Some((place, along * world.dot(&state.feature_value(axis))))
+    })
 }
 
 fn placement(body: &BodyState) -> Placement {

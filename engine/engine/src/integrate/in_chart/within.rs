@@ -168,6 +168,10 @@ impl OdeSystem for InCoordinates<'_> {
         })
     }
 
+    fn knows_turns(&self) -> bool {
+        self.mechanism.knows_turns()
+    }
+
     /// Of all its mass, moving as fast as it does, and lifted.
     fn energy_of(&self, error: f64) -> f64 {
         let Mechanism { system, state, .. } = &*self.mechanism;
@@ -181,7 +185,7 @@ impl OdeSystem for InCoordinates<'_> {
         if let Some(end) = self.at.and_then(|stage| self.at_stages.get(stage)) {
             self.guess.copy_from(end);
         }
-        self.mechanism.state.commit_revolutions();
+        self.mechanism.state.commit_motion();
         self.chart.commit(self.guess);
     }
 }
@@ -349,6 +353,7 @@ impl<M: OdeMethod> Stepper for InChart<M> {
     /// singular position that may be on another branch than the next, or there is none.
     fn interpolate_smoothly(&mut self, mechanism: &mut Mechanism, t: f64, y: &mut [f64]) {
         let Self { method, chart, at_stages, guess_old, .. } = self;
+        chart.tell(mechanism, t, guess_old);
         let stages = method.stage_weights(t).filter(|weights| weights.len() == at_stages.len());
         let placed = stages.is_some_and(|weights| {
             chart.place_between(mechanism, guess_old, weights.iter().copied().zip(&*at_stages))
@@ -374,8 +379,9 @@ impl<M: OdeMethod> Stepper for InChart<M> {
         let Self { method, chart, guess, guess_old, at_stages, last, y_old, x } = self;
         last.y.copy_from_slice(y_old);
         guess.copy_from(guess_old);
+        chart.tell(mechanism, last.t, guess);
         mechanism.set_state(last.t, y_old);
-        mechanism.state.commit_revolutions();
+        mechanism.state.commit_motion();
         // Where no chart can be taken, the next step says so.
         chart.take(mechanism, last.t, y_old, guess);
         chart.commit(guess);

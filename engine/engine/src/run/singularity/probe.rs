@@ -64,7 +64,7 @@ impl Path<'_> {
         let Probe { state, y, .. } = &mut *self.probe;
         let system = &self.mechanism.system;
         let (q, q_dot) = y.split_at(system.coordinates);
-        state.copy_revolutions(&self.mechanism.state);
+        state.set_revolutions(self.mechanism.state.expected_angles(t));
         state.set(system, t, q, q_dot);
     }
 }

@@ -56,7 +56,8 @@ impl AngleSeries {
 
     /// Takes over the positions of the features.
     pub fn place<const L: usize>(&mut self, values: &[LaneVector<L>]) {
-        self.state.set_position(self.places.map(|p| p.get(values).into()));
+        let at = self.places.map(|p| p.get(values).into());
+        self.state.set_position(at, self.state.reference);
     }
 
     /// Takes over coefficient m of the features, all before it being known.
@@ -157,6 +158,8 @@ impl Slide {
 pub struct Angles {
     /// The angles, in the order of the system's.
     pub list: Vec<AngleSeries>,
+    /// How many of them, the first ones, something but outputs depends on.
+    needed: usize,
     relations: Vec<Relation>,
 }
 
@@ -201,7 +204,7 @@ impl Angles {
         for turn in relations.iter().flat_map(|relation| relation.angles.iter().flatten()) {
             list[turn.angle].related = true;
         }
-        Self { list, relations }
+        Self { list, needed: system.needed_angles, relations }
     }
 
     /// Whether there are none.
@@ -341,9 +344,9 @@ impl Angles {
         }
     }
 
-    /// The part of h, by halves, within which no angle turns by more than `most`.
+    /// The part of h, by halves, within which no angle on which something depends turns by more than `most`.
     pub fn limit(&self, mut h: f64, order: usize, most: f64) -> f64 {
-        for angle in &self.list {
+        for angle in &self.list[..self.needed] {
             for _ in 0..60 {
                 if angle.sweep(h, order) <= most {
                     break;

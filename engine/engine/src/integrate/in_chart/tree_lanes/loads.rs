@@ -45,25 +45,8 @@ fn torsion(
     tree: &Tree,
     (angle, axis, bodies): (usize, FeatureId, [BodyRef; 2]),
 ) -> Option<Torsion> {
-    let index = |body: BodyRef| match body {
-        BodyRef::Ground => None,
-        BodyRef::Moving(body) => Some(body),
-    };
-    let [i, j] = bodies.map(index);
-    tree.edges().iter().find_map(|edge| {
-        let own = Some(edge.body);
-        let along = if own == j && edge.parent == i {
-            1.0
-        } else if own == i && edge.parent == j {
-            -1.0
-        } else {
-            return None;
-        };
-        let (place, turn) = edge.only_turn()?;
-        let world = edge.parent.map_or(turn, |parent| state.bodies()[parent].q.arm(&turn));
-        let factor = along * world.dot(&state.feature_value(axis));
-        Some(Torsion { place, factor, offset: state.angles()[angle].value })
-    })
+    let (place, factor) = tree.turn_between(state, bodies, axis)?;
+    Some(Torsion { place, factor, offset: state.angles()[angle].value })
 }
 
 /// A feature at several states: its value, seen from the point of reference if it is a point, and its rate.
