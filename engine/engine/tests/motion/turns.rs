@@ -59,6 +59,12 @@ fn methods() -> Vec<Value> {
     methods
 }
 
+/// Whether the method loses the motion itself where rotors are fast, on the way to another solution of the constraints: no count tells turns
+/// then.
+fn takes_another_branch(method: &Value) -> bool {
+    method["integrator"] == "radau" && method["stabilization"]["kind"] == "partitioning"
+}
+
 /// The method with further settings.
 fn with(method: &Value, further: &Value) -> Value {
     let mut settings = method.clone();
@@ -87,11 +93,7 @@ fn turns_of_balanced_rotors_are_counted_by_every_method() {
     for method in methods() {
         for (rate, tolerance) in [(3.0, 1e-3), (10.0, 1e-3), (10.0, 1e-5), (10.0, 1e-8), (40.0, 1e-4)] {
             let scene = rotors(rate, &with(&method, &json!({"tolerance": tolerance})));
-            // There the motion itself is lost, on the way to another branch.
-            if rate > 10.0
-                && method["integrator"] == "radau"
-                && method["stabilization"]["kind"] == "partitioning"
-            {
+            if rate > 10.0 && takes_another_branch(&method) {
                 continue;
             }
             let off = off(&scene, |t| -2.0 * rate * t);
@@ -149,14 +151,14 @@ fn turns_are_counted_in_parts_that_nothing_connects() {
     assert!(failed.is_empty(), "{failed:#?}");
 }
 
-/// A pendulum that just goes round, slowly above and fast below: rates at the ends of steps differ much.
+/// A pendulum that goes round on a rotor, slowly above and fast below: rates at the ends of steps differ much.
 #[test]
 fn turns_are_counted_where_rates_change() {
     let pendulum = |settings: &Value| {
-        let mut scene = rotors(0.0, settings);
+        let mut scene = rotors(-10.0, settings);
         scene["gravity"] = json!([-9.81, 0, 0]);
         scene["bodies"][1]["center_of_mass"] = json!([0.3, 0, 0]);
-        scene["joints"][1]["start"]["rate"] = json!(2);
+        scene["joints"][1]["start"]["rate"] = json!(12);
         scene
     };
     let fine = json!({"integrator": "dop853", "step": 0.002, "duration": 6});
@@ -166,10 +168,10 @@ fn turns_are_counted_where_rates_change() {
         exact.advance_to(6.0 * f64::from(i) / 57.0).unwrap();
         angles.push(angle(&exact));
     }
-    assert!(angles[57] > 25.0, "{} rad", angles[57]);
+    assert!(angles[57] > 85.0, "{} rad", angles[57]);
     let mut failed = Vec::new();
     for method in methods() {
-        for tolerance in [1e-5, 1e-7] {
+        for tolerance in [1e-4, 1e-6] {
             let scene = pendulum(&with(&method, &json!({"tolerance": tolerance, "duration": 6})));
             let mut places = angles.iter().skip(1);
             let mut run = start(&scene);
@@ -193,9 +195,9 @@ fn a_spring_is_wound_up_by_whole_turns() {
     let mut failed = Vec::new();
     for method in methods() {
         for tolerance in [1e-4, 1e-6] {
-            let mut scene = rotors(10.0, &with(&method, &json!({"tolerance": tolerance, "duration": 7})));
+            let mut scene = rotors(25.0, &with(&method, &json!({"tolerance": tolerance, "duration": 7})));
             scene["loads"] = json!([{"name": "spring", "type": "torsion", "joint": "k", "stiffness": stiffness, "free_angle": 0}]);
-            let off = off(&scene, |t| -20.0 * libm::sin(t));
+            let off = off(&scene, |t| -50.0 * libm::sin(t));
             if off > 1.0 {
                 failed.push(format!("{method}, {tolerance:e}: off by {off:.2}"));
             }
@@ -206,8 +208,8 @@ fn a_spring_is_wound_up_by_whole_turns() {
 
 #[test]
 fn events_of_angles_come_when_angles_are_reached() {
-    for method in methods() {
-        let mut scene = rotors(10.0, &with(&method, &json!({"tolerance": 1e-5, "outputs": []})));
+    for method in methods().into_iter().filter(|method| !takes_another_branch(method)) {
+        let mut scene = rotors(25.0, &with(&method, &json!({"tolerance": 1e-4, "outputs": []})));
         scene["events"] = json!([
             {"name": "third turn", "of": {"type": "angle", "joint": "k"}, "value": -18.85},
             {"name": "never", "of": {"type": "angle", "joint": "k"}, "value": 0.5},
@@ -216,7 +218,7 @@ fn events_of_angles_come_when_angles_are_reached() {
         run.advance_to(2.0).unwrap();
         let met: Vec<_> = run.events().iter().map(|event| event.name.as_str()).collect();
         assert_eq!(met, ["third turn"], "{method}");
-        assert!((run.events()[0].time - 0.9425).abs() < 2e-3, "{method}: {}", run.events()[0].time);
+        assert!((run.events()[0].time - 0.377).abs() < 2e-3, "{method}: {}", run.events()[0].time);
     }
 }
 
