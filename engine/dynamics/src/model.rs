@@ -17,6 +17,7 @@ mod joint_keys;
 mod load;
 mod marker;
 mod meshing;
+mod moving;
 mod output;
 mod parameter;
 mod placement;

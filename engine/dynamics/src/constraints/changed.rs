@@ -6,6 +6,21 @@ use nalgebra::Vector3;
 /// A given velocity that is changed by more than this part of itself is told.
 const LARGE_PART: f64 = 0.1;
 
+/// |Φ̇| relative to the mechanism's length up to which velocities fit.
+const FITS: f64 = 1e-9;
+
+/// That velocities which violated the constraints by `rate` were changed.
+pub(super) fn told(system: &System, rate: f64, given: &[f64], found: &[f64]) -> Option<String> {
+    let n = system.coordinates;
+    let changes = given[n..].iter().zip(&found[n..]).map(|(x, y)| (x - y).abs());
+    let changed = changes.fold(0.0f64, f64::max);
+    (rate > FITS * system.length).then(|| {
+        format!(
+            "velocities violated the constraints by {rate:.3e}; they were changed by up to {changed:.3e} onto them"
+        )
+    })
+}
+
 /// The body whose given velocity or angular velocity was changed by the largest part of itself, in a sentence, if that part is
 /// large: a body of no mass to speak of yields to its neighbours, and the motion that was asked for may be gone.
 pub(super) fn velocity_lost(system: &System, given: &[f64], found: &[f64]) -> Option<String> {

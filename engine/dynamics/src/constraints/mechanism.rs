@@ -210,15 +210,10 @@ impl Mechanism {
             project_velocities(&mut on, &rules::ASSEMBLY_VELOCITIES, length);
             self.check_motion(t, MAX_RATE_LEFT * rate + RATE_ROUNDING * state::fastest(&self.system, y))?;
         }
-        if rate <= 1e-9 * length {
-            return Ok(None);
-        }
-        let changed = largest_difference(&given[n..], &y[n..]);
-        let moved = format!(
-            "velocities violated the constraints by {rate:.3e}; they were changed by up to {changed:.3e} onto them"
-        );
-        let lost = changed::velocity_lost(&self.system, given, y);
-        Ok(Some(lost.map_or(moved.clone(), |lost| format!("{moved}; {lost}"))))
+        Ok(changed::told(&self.system, rate, given, y).map(|moved| {
+            let lost = changed::velocity_lost(&self.system, given, y);
+            lost.map_or(moved.clone(), |lost| format!("{moved}; {lost}"))
+        }))
     }
 
     /// Refuses rates of drivers that no velocities satisfy: those in place come nearest, and miss one by more than `most`.
@@ -288,10 +283,6 @@ fn half_turned(system: &System, state: &State, t: f64) -> Option<ConstraintId> {
 /// What rounding makes of differences of these numbers: differences of large numbers are no more exact than the numbers.
 fn rounding(x: &[f64]) -> f64 {
     2.0 * f64::EPSILON * x.iter().fold(0.0f64, |a, x| a.max(x.abs()))
-}
-
-fn largest_difference(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()))
 }
 
 impl OdeSystem for Mechanism {

@@ -1,5 +1,6 @@
 //! Starts that are given by joints: loops are closed with the given angles, displacements and rates held.
 
+use crate::constraints::changed;
 use crate::constraints::given::{driver_of, place, take_over};
 use crate::constraints::mechanism::Mechanism;
 use crate::constraints::rough;
@@ -68,9 +69,11 @@ fn close_positions(model: &mut Model, still: &dyn Fn() -> bool) {
     }
 }
 
-/// Makes the velocities fit the joints, with the given rates held.
+/// Makes the velocities fit the joints, with the given rates and those of drivers held.
 fn fit_velocities(model: &mut Model) {
-    if model.starts.iter().all(|start| start.rate.is_none() && start.speed.is_none()) {
+    let follows = model.follow_drivers();
+    let given = model.starts.iter().any(|start| start.rate.is_some() || start.speed.is_some());
+    if !(follows || given) {
         return;
     }
     let moving = |at: f64, rate: Option<f64>| rate.map(|rate| Curve::Polynomial(vec![at, rate]));
@@ -79,8 +82,27 @@ fn fit_velocities(model: &mut Model) {
     mechanism.set_state(0.0, &y);
     mechanism.elimination.set_redundant(true);
     let length = mechanism.system.length;
+    let (rate, asked) = (mechanism.state.velocity_violation(&mechanism.system), y.clone());
     project_velocities(&mut mechanism.projectable(&mut y), &rules::ROUGH_VELOCITIES, length);
     if y.iter().all(|number| number.is_finite()) {
+        // What drivers of points do is no rate of a joint that could be given.
+        if follows || model.drivers.iter().any(|driver| pulls(&driver.kind)) {
+            model.notes.extend(changed::told(&mechanism.system, rate, &asked, &y));
+        }
         take_over(model, &mechanism.system, &y, true);
+    }
+}
+
+/// Whether a driver that is none of a joint moves at the start.
+fn pulls(kind: &DriverKind) -> bool {
+    match kind {
+        DriverKind::Angle { .. } | DriverKind::Slide { .. } => false,
+        DriverKind::Point { motion, .. } | DriverKind::Vector { motion, .. } => {
+            motion.at(0.0)[1].norm() > 0.0
+        }
+        DriverKind::Cosine { motion, .. } => motion.at(0.0)[1] != 0.0,
+        DriverKind::CosineToWorld { reference, motion, .. } => {
+            motion.at(0.0)[1] != 0.0 || reference.at(0.0)[1].norm() > 0.0
+        }
     }
 }

@@ -22,20 +22,9 @@ struct Mesh {
 ///
 /// [`ModelError::Geometry`]: angles at the start of two joints, more than half a turn from what a gear says of them.
 pub(super) fn pass_on(joints: &[ModelJoint], starts: &mut Vec<ModelStart>) -> Result<(), ModelError> {
-    let meshes: Vec<Mesh> = joints
-        .iter()
-        .enumerate()
-        .filter_map(|(index, joint)| {
-            let JointGeometry::Gear { joints, ratio, offset } = joint.geometry else { return None };
-            Some(Mesh { index, joints, ratio, offset })
-        })
-        .collect();
+    let (meshes, of_joint) = meshes(joints);
     if meshes.is_empty() {
         return Ok(());
-    }
-    let mut of_joint: Vec<Vec<Mesh>> = vec![Vec::new(); joints.len()];
-    for mesh in &meshes {
-        mesh.joints.iter().for_each(|&joint| of_joint[joint].push(*mesh));
     }
     let mut angles: Vec<Option<f64>> = vec![None; joints.len()];
     for start in starts.iter() {
@@ -64,10 +53,42 @@ pub(super) fn pass_on(joints: &[ModelJoint], starts: &mut Vec<ModelStart>) -> Re
         match starts.iter_mut().find(|start| start.joint == joint) {
             Some(start) => (start.angle, start.rate) = (angle, rate),
             None if angle.is_none() && rate.is_none() => {}
-            None => starts.push(ModelStart { joint, angle, rate, slide: None, speed: None }),
+            None => starts.push(ModelStart { angle, rate, ..ModelStart::of(joint) }),
         }
     }
     Ok(())
+}
+
+/// All gears, and those of each joint.
+fn meshes(joints: &[ModelJoint]) -> (Vec<Mesh>, Vec<Vec<Mesh>>) {
+    let meshes: Vec<Mesh> = joints
+        .iter()
+        .enumerate()
+        .filter_map(|(index, joint)| {
+            let JointGeometry::Gear { joints, ratio, offset } = joint.geometry else { return None };
+            Some(Mesh { index, joints, ratio, offset })
+        })
+        .collect();
+    let mut of_joint: Vec<Vec<Mesh>> = vec![Vec::new(); joints.len()];
+    for mesh in &meshes {
+        mesh.joints.iter().for_each(|&joint| of_joint[joint].push(*mesh));
+    }
+    (meshes, of_joint)
+}
+
+/// Adds the rates alone that gears give to joints without one.
+pub(super) fn pass_rates_on(joints: &[ModelJoint], starts: &mut Vec<ModelStart>) {
+    let (meshes, of_joint) = meshes(joints);
+    if meshes.is_empty() {
+        return;
+    }
+    for (joint, rate) in rates(&of_joint, starts).into_iter().enumerate() {
+        match starts.iter_mut().find(|start| start.joint == joint) {
+            Some(start) => start.rate = rate,
+            None if rate.is_none() => {}
+            None => starts.push(ModelStart { rate, ..ModelStart::of(joint) }),
+        }
+    }
 }
 
 /// The rates of all joints, where they are given or gears give them. Without them the velocities nearest to rest would be taken that keep

@@ -31,6 +31,11 @@ pub struct ModelStart {
 }
 
 impl ModelStart {
+    /// A joint of which nothing is given.
+    pub(super) fn of(joint: usize) -> Self {
+        Self { joint, angle: None, rate: None, slide: None, speed: None }
+    }
+
     /// Checks the start of joint `reader.index`, if it has one.
     pub(super) fn new(joint: &Joint, reader: &ModelReader) -> Result<Option<Self>, ModelError> {
         let Some(start) = joint.start else { return Ok(None) };
@@ -95,45 +100,62 @@ pub(super) fn place(
         return;
     }
     let tree = tree(bodies.len(), joints, starts);
-    let mut carried: Vec<Option<Carried>> = vec![None; bodies.len()];
     let ground = Carried {
         by: Isometry3::identity(),
         center: Vector3::zeros(),
         motion: [Vector3::zeros(); 2],
         moved: false,
     };
-    let mut queue: VecDeque<(BodyRef, Carried)> = VecDeque::from([(BodyRef::Ground, ground)]);
-    let mut next_root = 0;
-    loop {
-        while let Some((parent, at)) = queue.pop_front() {
-            for &index in &tree {
-                let [i, j] = joints[index].bodies;
-                let side = usize::from(j == parent);
-                let BodyRef::Moving(child) = (if side == 0 { j } else { i }) else { continue };
-                if (i != parent && j != parent) || carried[child].is_some() {
-                    continue;
-                }
-                let start = starts.iter().find(|start| start.joint == index);
-                let next = carry(bodies, &joints[index], start, (side, at), child);
-                carried[child] = Some(next);
-                queue.push_back((BodyRef::Moving(child), next));
-            }
+    let carried = walk(bodies.len(), joints, &tree, ground, |from, child| match from {
+        Some((index, side, parent)) => {
+            let start = starts.iter().find(|start| start.joint == index);
+            carry(bodies, &joints[index], start, (side, parent), child)
         }
-        // What does not hang on the ground stands where it is stated.
-        let Some(root) = (next_root..bodies.len()).find(|&body| carried[body].is_none()) else { break };
-        next_root = root + 1;
-        let at = follow(&bodies[root], ground, Isometry3::identity(), None);
-        carried[root] = Some(at);
-        queue.push_back((BodyRef::Moving(root), at));
-    }
-    for (body, carried) in bodies.iter_mut().zip(carried.into_iter().flatten()) {
+        None => follow(&bodies[child], ground, Isometry3::identity(), None),
+    });
+    for (body, carried) in bodies.iter_mut().zip(carried) {
         notes.extend(replaced(body, &carried));
         put(body, &carried);
     }
 }
 
+/// What `next` makes of each body, from the ground outwards along the tree: from the joint, the side of it and what was made of the body
+/// there. What does not hang on the ground has none of these, the first of the list first.
+pub(super) fn walk<C: Copy>(
+    bodies: usize,
+    joints: &[ModelJoint],
+    tree: &[usize],
+    ground: C,
+    mut next: impl FnMut(Option<(usize, usize, C)>, usize) -> C,
+) -> Vec<C> {
+    let mut made: Vec<Option<C>> = vec![None; bodies];
+    let mut queue: VecDeque<(BodyRef, C)> = VecDeque::from([(BodyRef::Ground, ground)]);
+    let mut next_root = 0;
+    loop {
+        while let Some((parent, at)) = queue.pop_front() {
+            for &index in tree {
+                let [i, j] = joints[index].bodies;
+                let side = usize::from(j == parent);
+                let BodyRef::Moving(child) = (if side == 0 { j } else { i }) else { continue };
+                if (i != parent && j != parent) || made[child].is_some() {
+                    continue;
+                }
+                let child_at = next(Some((index, side, at)), child);
+                made[child] = Some(child_at);
+                queue.push_back((BodyRef::Moving(child), child_at));
+            }
+        }
+        let Some(root) = (next_root..bodies).find(|&body| made[body].is_none()) else { break };
+        next_root = root + 1;
+        let at = next(None, root);
+        made[root] = Some(at);
+        queue.push_back((BodyRef::Moving(root), at));
+    }
+    made.into_iter().flatten().collect()
+}
+
 /// The joints along which bodies are placed: those with a start, then those that leave the least freedom, without loops.
-fn tree(bodies: usize, joints: &[ModelJoint], starts: &[ModelStart]) -> Vec<usize> {
+pub(super) fn tree(bodies: usize, joints: &[ModelJoint], starts: &[ModelStart]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..joints.len()).filter(|&k| joints[k].coupled_joints().is_none()).collect();
     order.sort_by_key(|&k| {
         let given = starts.iter().any(|start| start.joint == k);

@@ -1,0 +1,172 @@
+//! Drivers that start at speed, beside joints whose rates are given for the start: all others rest.
+
+#![allow(clippy::unwrap_used)] // a test that cannot go on says so
+
+use serde_json::{Value, json};
+use triad_engine::prelude::*;
+
+fn run(written: &Value) -> Simulation {
+    Simulation::new(&Scene::from_json(&written.to_string()).unwrap()).unwrap()
+}
+
+fn body(name: &str, position: [f64; 3], hangs: f64) -> Value {
+    json!({ "name": name, "mass": 1.0, "inertia": { "principal": [0.1, 0.1, 0.1] }, "position": position,
+        "center_of_mass": [0, -hangs, 0] })
+}
+
+fn hinge(name: &str, [i, j]: [&str; 2], point: [f64; 3], start: Value) -> Value {
+    let mut joint = json!({ "name": name, "type": "revolute", "body_i": i, "body_j": j, "point": point, "axis": [0, 0, 1] });
+    if !start.is_null() {
+        joint["start"] = start;
+    }
+    joint
+}
+
+fn driver(kind: &str, joint: &str, rate: f64) -> Value {
+    json!({ "name": "motor", "type": kind, "joint": joint, "motion": { "kind": "ramp", "rate": rate } })
+}
+
+/// A cart on a rail, driven at 2 m/s, with a load on a pin and a tip on that.
+fn crane(pin: Value, elbow: Value) -> Value {
+    json!({
+        "name": "crane", "bodies": [body("cart", [0.0; 3], 0.0), body("load", [0.0; 3], 1.0), body("tip", [0.0, -1.0, 0.0], 0.5)],
+        "joints": [
+            { "name": "rail", "type": "prismatic", "body_i": "ground", "body_j": "cart", "point": [0, 0, 0], "axis": [1, 0, 0] },
+            hinge("pin", ["cart", "load"], [0.0; 3], pin),
+            hinge("elbow", ["load", "tip"], [0.0, -1.0, 0.0], elbow),
+        ],
+        "drivers": [driver("slide", "rail", 2.0)],
+    })
+}
+
+fn of_changed(run: &Simulation) -> Vec<&String> {
+    run.notes().iter().filter(|note| note.contains("velocities violated the constraints")).collect()
+}
+
+fn near(found: &[f64], expected: &[f64]) {
+    let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(off < 1e-12, "{found:?} instead of {expected:?}");
+}
+
+fn spins(run: &Simulation) -> Vec<f64> {
+    run.frame().bodies.iter().map(|body| body.angular_velocity[2]).collect()
+}
+
+/// What hangs on a driven joint moves with it, and other joints rest, given or not.
+#[test]
+fn what_hangs_on_a_driven_joint_is_carried_along() {
+    let rest = run(&crane(json!({ "rate": 0.0 }), json!({ "rate": 1.0 })));
+    for written in
+        [crane(Value::Null, json!({ "rate": 1.0 })), crane(Value::Null, json!({ "angle": 0.0, "rate": 1.0 }))]
+    {
+        let run = run(&written);
+        near(&spins(&run), &[0.0, 0.0, 1.0]);
+        near(&run.frame().bodies[1].velocity, &[2.0, 0.0, 0.0]);
+        near(&run.frame().bodies[2].velocity, &rest.frame().bodies[2].velocity);
+        assert!(of_changed(&run).is_empty(), "{:?}", run.notes());
+    }
+    // An angle alone is a start as well.
+    let angle = run(&crane(json!({ "angle": 0.4 }), Value::Null));
+    near(&spins(&angle), &[0.0; 3]);
+    assert!(of_changed(&angle).is_empty(), "{:?}", angle.notes());
+}
+
+/// A driven turntable turns all that stands on it, at the places that the starts give.
+#[test]
+fn what_stands_on_a_driven_turntable_turns_with_it() {
+    let written = json!({
+        "name": "turntable", "bodies": [body("table", [0.0; 3], 0.0), body("arm", [0.0; 3], 1.0), body("hand", [0.0, -1.0, 0.0], 0.5)],
+        "joints": [
+            hinge("axle", ["ground", "table"], [0.0; 3], Value::Null),
+            hinge("shoulder", ["table", "arm"], [1.0, 0.0, 0.0], json!({ "angle": 0.5 })),
+            hinge("wrist", ["arm", "hand"], [0.0, -1.0, 0.0], json!({ "rate": -2.0 })),
+        ],
+        "drivers": [driver("angle", "axle", 3.0)],
+    });
+    let run = run(&written);
+    near(&spins(&run), &[3.0, 3.0, 1.0]);
+    let arm = &run.frame().bodies[1];
+    near(&arm.velocity[..2], &[-3.0 * arm.position[1], 3.0 * arm.position[0]]);
+    assert!(of_changed(&run).is_empty(), "{:?}", run.notes());
+}
+
+/// A driver goes before the rate that is given for its joint, for all that hangs on it, and passes its rate through gears.
+#[test]
+fn the_rate_of_a_driver_goes_before_a_given_one_and_through_gears() {
+    let written = |ratio: Option<f64>| {
+        let mut joints = vec![
+            hinge("first", ["ground", "wheel"], [0.0; 3], json!({ "rate": 1.0 })),
+            hinge("second", ["ground", "other"], [2.0, 0.0, 0.0], Value::Null),
+            hinge("pin", ["other", "load"], [3.0, 0.0, 0.0], Value::Null),
+        ];
+        if let Some(ratio) = ratio {
+            joints[0].as_object_mut().unwrap().remove("start");
+            joints.push(
+                json!({ "name": "gear", "type": "gear", "joints": ["first", "second"], "ratio": ratio }),
+            );
+            joints.push(hinge("elsewhere", ["ground", "free"], [9.0, 0.0, 0.0], json!({ "rate": 0.5 })));
+        }
+        let mut bodies = vec![
+            body("wheel", [0.0; 3], 0.0),
+            body("other", [2.0, 0.0, 0.0], 0.0),
+            body("load", [3.0, 0.0, 0.0], 1.0),
+        ];
+        bodies.extend(ratio.map(|_| body("free", [9.0, 0.0, 0.0], 1.0)));
+        json!({ "name": "geared", "bodies": bodies, "joints": joints, "drivers": [driver("angle", "first", 4.0)] })
+    };
+    let replaced = run(&written(None));
+    near(&spins(&replaced), &[4.0, 0.0, 0.0]);
+    assert!(replaced.notes().iter().any(|note| note.contains("but driver \"motor\" prescribes 4 rad/s")));
+    near(&spins(&run(&written(Some(-0.5)))), &[4.0, -2.0, -2.0, 0.5]);
+}
+
+/// A screw that is driven along its axis turns what hangs on it.
+#[test]
+fn a_driven_screw_turns_what_hangs_on_it() {
+    let mut written = crane(Value::Null, json!({ "rate": 1.0 }));
+    written["joints"][0] = json!({ "name": "rail", "type": "screw", "pitch": 0.5, "body_i": "ground", "body_j": "cart", "point": [0, 0, 0],
+        "axis": [1, 0, 0] });
+    written["drivers"][0] = driver("angle", "rail", 4.0 * std::f64::consts::PI);
+    let run = run(&written);
+    let rate = 4.0 * std::f64::consts::PI;
+    for body in &run.frame().bodies[..2] {
+        near(&body.angular_velocity, &[rate, 0.0, 0.0]);
+    }
+    near(&run.frame().bodies[1].velocity, &[1.0, 0.0, rate * run.frame().bodies[1].position[1]]);
+    assert!(of_changed(&run).is_empty(), "{:?}", run.notes());
+}
+
+/// Where joints cannot stay at rest, in loops and where a driver moves a point, all velocities change as little as they can, and that is told.
+#[test]
+fn where_other_joints_must_move_it_is_told() {
+    let mut point = crane(Value::Null, json!({ "rate": 1.0 }));
+    point["drivers"] = json!([{ "name": "motor", "type": "point", "body": "load", "point": [0, -1, 0],
+        "motion": { "kind": "components", "x": { "kind": "ramp", "rate": 2.0 }, "y": -1.0, "z": 0.0 } }]);
+    let run_of_point = run(&point);
+    assert_eq!(of_changed(&run_of_point).len(), 1, "{:?}", run_of_point.notes());
+    // A crank that drives a bar between it and a rocker: these turn.
+    let four_bar = json!({
+        "name": "four-bar",
+        "bodies": [body("crank", [0.0; 3], 0.0), body("coupler", [0.0, 1.0, 0.0], 0.0), body("rocker", [2.0, 0.0, 0.0], 0.0),
+            body("load", [2.0, 1.5, 0.0], 1.0)],
+        "joints": [
+            hinge("O", ["ground", "crank"], [0.0; 3], Value::Null),
+            hinge("A", ["crank", "coupler"], [0.0, 1.0, 0.0], Value::Null),
+            hinge("B", ["coupler", "rocker"], [2.0, 1.5, 0.0], Value::Null),
+            hinge("C", ["rocker", "ground"], [2.0, 0.0, 0.0], Value::Null),
+            hinge("pin", ["rocker", "load"], [2.0, 1.5, 0.0], json!({ "rate": 1.0 })),
+        ],
+        "drivers": [driver("angle", "O", 2.0)],
+    });
+    let run_of_loop = run(&four_bar);
+    near(&spins(&run_of_loop)[..1], &[2.0]);
+    near(&[spins(&run_of_loop)[3] - spins(&run_of_loop)[2]], &[1.0]);
+    assert_eq!(of_changed(&run_of_loop).len(), 1, "{:?}", run_of_loop.notes());
+    // What the author says of a body stays, as far as that can be.
+    let mut stated = crane(Value::Null, json!({ "rate": 1.0 }));
+    stated["bodies"][1]["velocity"] = json!([2.0, 0.0, 0.0]);
+    stated["bodies"][1]["angular_velocity"] = json!([0.0, 0.0, 0.7]);
+    let run_of_stated = run(&stated);
+    near(&spins(&run_of_stated), &[0.0, 0.7, 1.7]);
+    assert!(of_changed(&run_of_stated).is_empty(), "{:?}", run_of_stated.notes());
+}
