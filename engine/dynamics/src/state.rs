@@ -13,6 +13,7 @@ mod rows;
 
 pub use angle::AngleState;
 pub(crate) use angle::nearest;
+pub use energy::kinetic_of_step;
 pub use forces::AppliedForces;
 pub use frame::BodyFrame;
 pub use pace::{fastest, pace};

@@ -16,6 +16,7 @@ mod explain;
 mod outputs;
 mod queries;
 mod restart;
+mod seen;
 mod snapshot;
 pub(crate) mod start;
 mod summary;
@@ -36,6 +37,7 @@ use crate::model::{CustomLoadError, Model};
 use crate::scene::IntegratorKind;
 use companion::Companion;
 use examiner::Examiner;
+use seen::Seen;
 use singularity::SingularityMonitor;
 use state_view::CachedState;
 use std::sync::OnceLock;
@@ -73,8 +75,8 @@ pub struct Simulation {
     /// The current state: at the end of the last step, or before it.
     current: CachedState,
     start_energy: f64,
-    /// Largest kinetic energy at the ends of the steps whose constraints were measured, J.
-    max_kinetic_energy: f64,
+    /// Largest energies so far.
+    seen: Seen,
     /// Whether neither drivers nor loads without potential act.
     conservative: bool,
     /// Their work up to the start of the last step, J.
@@ -263,6 +265,7 @@ impl Simulation {
             companion.keep_up(&self.integrator);
         }
         self.step_integrator(end)?;
+        self.seen.step(&self.mechanism.system, self.integrator.last(), self.work);
         self.find_events();
         if !self.model().settings.skip.reports {
             self.report_step();
@@ -327,10 +330,7 @@ impl Simulation {
         }
         self.counters.checks += 1;
         let last = self.integrator.last();
-        self.mechanism.check(last.t, &last.y)?;
-        let Mechanism { system, state, .. } = &self.mechanism;
-        self.max_kinetic_energy = self.max_kinetic_energy.max(state.kinetic_energy(system));
-        Ok(())
+        self.mechanism.check(last.t, &last.y)
     }
 
     /// The end of a run whose integrator cannot go on.

@@ -1,6 +1,7 @@
 //! Restarts of a run: at its start, from the state of another run, or backwards.
 
 use super::companion::Companion;
+use super::seen::Seen;
 use super::{Simulation, Snapshot, explain};
 use crate::error::EngineError;
 use crate::integrate::Integrator;
@@ -100,7 +101,7 @@ impl Simulation {
         self.mechanism.elimination.counters = Counters::default();
         self.mechanism.projections = 0;
         self.counters = explain::RunCounters::default();
-        (self.work, self.max_kinetic_energy) = (0.0, 0.0);
+        (self.work, self.seen) = (0.0, Seen::new(time, y));
         self.singularities.reset(&mut self.mechanism);
         self.before_branching = None;
         self.off_at_start.take();

@@ -2,6 +2,7 @@
 
 use super::companion::Companion;
 use super::examiner::Examiner;
+use super::seen::Seen;
 use super::singularity::SingularityMonitor;
 use super::state_view::CachedState;
 use super::{Simulation, explain};
@@ -97,6 +98,7 @@ impl Simulation {
         let interpolates = !conservative || !mechanism.system.event_functions.is_empty();
         let scratch = vec![0.0; if interpolates { start.len() } else { 0 }];
         let end = mechanism.system.model.settings.duration;
+        let seen = Seen::new(0.0, &start);
         let mut simulation = Self {
             mechanism,
             integrator,
@@ -108,7 +110,7 @@ impl Simulation {
             notes,
             current,
             start_energy,
-            max_kinetic_energy: 0.0,
+            seen,
             conservative,
             work: 0.0,
             scratch,

@@ -103,7 +103,7 @@ impl Simulation {
         let steps = self.integrator.last().steps;
         let singularities = self.singularities.configurations(system);
         let error = self.error_estimate();
-        let mut doubts = self.doubts(&singularities, energy_drift);
+        let mut doubts = self.doubts(&singularities, [energy_drift, work]);
         doubts.extend(self.doubts_of_error(error));
         Summary {
             time: self.time(),
@@ -153,23 +153,22 @@ impl Simulation {
     }
 
     /// What speaks against the current state.
-    fn doubts(&self, singularities: &[SingularConfiguration], drift: f64) -> Vec<String> {
+    fn doubts(&self, singularities: &[SingularConfiguration], [drift, work]: [f64; 2]) -> Vec<String> {
         let mut doubts = self.branching();
         let system = &self.mechanism.system;
         let current = self.current.state(system);
-        let kinetic = self.max_kinetic_energy.max(current.kinetic_energy(system)).max(resting_energy(system));
-        // A Taylor series passes singular positions, and does not measure its energy at each step: only what it has brought in or lost
-        // beside the whole of it speaks against it.
+        let start = self.start_energy.abs();
+        let size = self.seen.kinetic.max(current.kinetic_energy(system)).max(resting_energy(system));
+        // A slow motion gives away what was worked on it without ever having much of it. A Taylor series passes singular positions: only
+        // what it has brought in or lost beside the whole of its energy speaks against it.
+        let size = size.max(self.seen.work).max(work.abs());
         let series = self.kind == IntegratorKind::Taylor;
-        let kinetic =
-            if series { kinetic.max(self.start_energy.abs()).max(self.work.abs()) } else { kinetic };
+        let size = if series { size.max(start) } else { size.max(STANDING * start) };
+        let energies = start + current.energies(system).map(f64::abs).sum::<f64>();
+        let drift = self.seen.beyond_rounding(drift, energies);
         let signs = violation::Signs {
             passed: singularities.first().map(|passed| passed.time).filter(|_| !series),
-            drift: if drift == 0.0 {
-                0.0
-            } else {
-                drift.abs() / kinetic.max(STANDING * self.start_energy.abs())
-            },
+            drift: if drift == 0.0 { 0.0 } else { drift / size },
             open: violation::relative(system, current),
             swallowed: swallowed(system),
         };

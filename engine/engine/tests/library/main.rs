@@ -8,6 +8,7 @@ mod bounds;
 mod catalogue;
 mod counting;
 mod custom_loads;
+mod doubts;
 mod driven_starts;
 mod examples;
 mod gears;
