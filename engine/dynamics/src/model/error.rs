@@ -2,6 +2,8 @@
 
 /// Where a scene chooses outputs.
 const OUTPUTS: &str = "/simulation/outputs";
+/// What is wrong with a formula that can be read, as its reason begins.
+const NO_SERIES: &str = "its formula has no power series";
 
 /// A scene that cannot be: what, where, and what to try.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -232,6 +234,11 @@ impl ModelError {
             }
             Self::Geometry { pointer, .. } if pointer.starts_with(OUTPUTS) => {
                 "Write a word alone, like reactions, or with the name of one element behind a colon, like reactions:pin."
+                    .to_owned()
+            }
+            Self::Geometry { reason, .. } if reason.starts_with(NO_SERIES) => {
+                "Change the formula so that it has a value and all derivatives in the whole run, let the run end before, or write \
+                 a table instead."
                     .to_owned()
             }
             Self::Geometry { pointer, .. } if !pointer.starts_with("/joints") => {

@@ -244,7 +244,8 @@ impl ModelReader<'_> {
         if let Curve::Formula(formula) = &mut curve {
             if let Some(time) = formula.undefined_until(self.duration) {
                 let reason = format!(
-                    "its formula has no value, rate or second derivative at t = {time:.9} s, within the run of {} s",
+                    "its formula has no power series at t = {time:.9} s, within the run of {} s: its value or a derivative of it is infinite there, or \
+                     too large for numbers on the way to it",
                     self.duration
                 );
                 return Err(self.wrong(key, reason));

@@ -11,6 +11,7 @@ mod custom_loads;
 mod doubts;
 mod driven_starts;
 mod examples;
+mod formulas;
 mod gears;
 mod hanging;
 mod kinematics;

@@ -115,6 +115,8 @@ export const told: Record<string, string> = {
   'joint "{joint}": {reason}': "Gelenk „{joint}“: {reason}",
   'driver "{driver}": {reason}': "Antrieb „{driver}“: {reason}",
   'load "{load}": {reason}': "Last „{load}“: {reason}",
+  "its formula has no power series at t = {time} s, within the run of {duration} s: its value or a derivative of it is infinite there, or too large for numbers on the way to it":
+    "Ihre Formel hat bei t = {time} s, innerhalb des Laufs von {duration} s, keine Potenzreihe: Ihr Wert oder eine Ableitung ist dort unendlich oder unterwegs zu groß für Zahlen",
   "u and v are not perpendicular unit vectors: |u| = {u}, |v| = {v}, u·v = {w}":
     "u und v sind keine zueinander senkrechten Einheitsvektoren: |u| = {u}, |v| = {v}, u·v = {w}",
   "u, v, w are left-handed: w must be u × v, not its opposite":
@@ -183,6 +185,8 @@ export const told: Record<string, string> = {
     "Gib Punkte und Achsen entweder in der Welt am Anfang (point, axis, axes) oder in den Systemen beider Körper (point_i und point_j, axis_i und axis_j).",
   "Compare the element with the JSON Schema of a scene; points and vectors of a body are in its own frame.":
     "Vergleiche das Element mit dem JSON-Schema einer Szene; Punkte und Vektoren eines Körpers gelten in seinem eigenen System.",
+  "Change the formula so that it has a value and all derivatives in the whole run, let the run end before, or write a table instead.":
+    "Ändere die Formel so, dass sie im ganzen Lauf einen Wert und alle Ableitungen hat, lass den Lauf vorher enden, oder gib stattdessen eine Tabelle.",
   "A parameter names numbers of this scene by JSON pointers from 0, like /bodies/0/mass, and a range that holds the number written there.":
     "Ein Parameter nennt Zahlen dieser Szene durch JSON-Zeiger ab 0, wie /bodies/0/mass, und einen Bereich, in dem die Zahl dort liegt.",
   "Split the mechanism, or leave out what does not move.":

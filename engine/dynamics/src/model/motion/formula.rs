@@ -15,6 +15,13 @@ const HALVINGS: u32 = 60;
 const MAX_WHOLE: f64 = 1e6;
 const MANY: f64 = 64.0;
 
+/// Size of a number from which it is taken for an infinite one that does not change, where its derivatives are too large for numbers; and
+/// that of a factor beside it up to which nothing is left of what is divided by the two.
+const LARGE: f64 = 1e60;
+const ORDINARY: f64 = 1e10;
+/// Least exponent that leaves a large number large.
+const LEAST_ROOT: f64 = 0.5;
+
 /// Coefficients of a power series.
 type Series = [f64; MAX_TERMS];
 
@@ -229,6 +236,8 @@ fn call(function: Function, u: &Series, terms: usize) -> Series {
             terms,
         ),
         Function::Atan => integral_of_rate_over(u, &one_and_square(1.0), function, terms),
+        // Of a number beyond all others nothing tells how large its logarithm is.
+        Function::Log if is_beyond(u, terms) => [f64::NAN; MAX_TERMS],
         Function::Log => integral_of_rate_over(u, u, function, terms),
         Function::Sqrt => constant_power(u, 0.5, terms),
         Function::Exp => {
@@ -237,7 +246,7 @@ fn call(function: Function, u: &Series, terms: usize) -> Series {
             for n in 1..terms {
                 e[n] = (1..=n).map(|j| j as f64 * u[j] * e[n - j]).sum::<f64>() / n as f64;
             }
-            e
+            settled(e, is_known(u, terms), terms)
         }
         // Parsing refuses those of t; of a number they are numbers.
         Function::Abs | Function::EllipticK => {
@@ -259,21 +268,52 @@ fn integral_of_rate_over(u: &Series, w: &Series, function: Function, terms: usiz
     f
 }
 
+/// Whether a series has a value, a finite one or that of [`settled`], and finite derivatives. At a pole they are infinite.
+fn is_known(a: &Series, terms: usize) -> bool {
+    !a[0].is_nan() && a[..terms].iter().skip(1).all(|c| c.is_finite())
+}
+
+/// Whether it is beyond all numbers, as [`settled`] makes it.
+fn is_beyond(a: &Series, terms: usize) -> bool {
+    a[0].is_infinite() && is_known(a, terms)
+}
+
+/// A function of known series, nowhere near a pole, whose value or derivatives may be too large for numbers: then an infinite one that does
+/// not change.
+fn settled(mut out: Series, known: bool, terms: usize) -> Series {
+    if known && out[0].abs() > LARGE && !out[..terms].iter().all(|c| c.is_finite()) {
+        out[1..].fill(0.0);
+        out[0] *= f64::INFINITY;
+    }
+    out
+}
+
+/// Whether a factor changes nothing about the size of a large number beside it.
+fn is_no_less(a: f64) -> bool {
+    a.abs() >= 1.0 / ORDINARY
+}
+
 fn product(a: &Series, b: &Series, terms: usize) -> Series {
     let mut out = [0.0; MAX_TERMS];
     for n in 0..terms {
         out[n] = (0..=n).map(|j| a[j] * b[n - j]).sum();
     }
-    out
+    let known = is_known(a, terms) && is_known(b, terms) && is_no_less(a[0]) && is_no_less(b[0]);
+    settled(out, known, terms)
 }
 
 fn quotient(a: &Series, b: &Series, terms: usize) -> Series {
     let mut out = [0.0; MAX_TERMS];
+    let finite = a[..terms].iter().all(|c| c.is_finite());
+    if is_beyond(b, terms) && finite && a[0].abs() <= ORDINARY {
+        return out;
+    }
     for n in 0..terms {
         let known: f64 = (1..=n).map(|j| b[j] * out[n - j]).sum();
         out[n] = (a[n] - known) / b[0];
     }
-    out
+    let known = is_known(a, terms) && is_known(b, terms) && is_no_less(b[0]) && b[0].abs() <= ORDINARY;
+    settled(out, known, terms)
 }
 
 /// a to the power of b.
@@ -313,7 +353,10 @@ fn constant_power(a: &Series, exponent: f64, terms: usize) -> Series {
         let sum: f64 = (1..=n).map(|j| (exponent * j as f64 - (n - j) as f64) * a[j] * p[n - j]).sum();
         p[n] = sum / (n as f64 * a[0]);
     }
-    p
+    if is_beyond(a, terms) && exponent <= -LEAST_ROOT {
+        return [0.0; MAX_TERMS];
+    }
+    settled(p, is_known(a, terms) && is_no_less(a[0]) && exponent >= LEAST_ROOT, terms)
 }
 
 #[cfg(test)]
