@@ -158,11 +158,14 @@ impl Simulation {
         let system = &self.mechanism.system;
         let current = self.current.state(system);
         let start = self.start_energy.abs();
-        let size = self.seen.kinetic.max(current.kinetic_energy(system)).max(resting_energy(system));
+        let series = self.kind == IntegratorKind::Taylor;
+        // A series is measured by what moves now, but what it loses is no more than its tolerance promises of what has moved before.
+        let promised = drift.abs() <= system.model.settings.tolerance * self.seen.kinetic;
+        let seen = if series && !promised { 0.0 } else { self.seen.kinetic };
+        let size = seen.max(current.kinetic_energy(system)).max(resting_energy(system));
         // A slow motion gives away what was worked on it without ever having much of it. A Taylor series passes singular positions: only
         // what it has brought in or lost beside the whole of its energy speaks against it.
         let size = size.max(self.seen.work).max(work.abs());
-        let series = self.kind == IntegratorKind::Taylor;
         let size = if series { size.max(start) } else { size.max(STANDING * start) };
         let energies = start + current.energies(system).map(f64::abs).sum::<f64>();
         let drift = self.seen.beyond_rounding(drift, energies);
