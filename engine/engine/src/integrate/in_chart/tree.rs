@@ -5,13 +5,14 @@ use super::edge::{self, Edge, screws_of};
 use super::spatial::{Placement, Twist};
 use nalgebra::{Matrix3, Vector3};
 use triad_dynamics::constraints::mechanism::Mechanism;
-use triad_dynamics::model::BodyRef;
+use triad_dynamics::model::{BodyRef, DriverKind};
 use triad_dynamics::state::{BodyState, State};
 use triad_dynamics::system::System;
 use triad_dynamics::system::index::FeatureId;
 use triad_dynamics::system::natural::NaturalCoordinates;
 
-/// Turn of a joint within a step above which whole turns of angles that no coordinate tells could be miscounted, rad.
+/// Turn of a joint within a step above which whole turns of angles that no coordinate tells could be miscounted, or half turns be missed by
+/// drivers, rad.
 const LONGEST_TURN: f64 = 1.5;
 
 /// The angle of a joint as a coordinate of the tree, times a factor and from an offset on.
@@ -31,7 +32,8 @@ pub struct Tree {
     /// How many of them are joints: the others are bodies that move freely.
     joints: usize,
     length: f64,
-    /// Angles that must not turn far within a step, with their values at its start: none where coordinates tell all turns that count.
+    /// Angles that must not turn far within a step, with their values at its start: none where coordinates tell all turns that count, and
+    /// nothing drives an angle.
     watched: Vec<(usize, f64)>,
     /// Angles that coordinates tell.
     told: Vec<Told>,
@@ -56,8 +58,11 @@ impl Tree {
         let coordinates = edges.last().map_or(0, |edge| edge.range().end);
         let told: Vec<Told> =
             (0..system.angles.len()).filter_map(|k| Told::new(mechanism, &edges, k)).collect();
-        let watches =
-            told.iter().filter(|told| told.angle < system.needed_angles).count() < system.needed_angles;
+        let counted = told.iter().filter(|told| told.angle < system.needed_angles).count();
+        // The row of a driven angle holds half a turn away as well, and a long step would find that.
+        let mut drivers = system.model.drivers.iter();
+        let watches = counted < system.needed_angles
+            || drivers.any(|driver| matches!(driver.kind, DriverKind::Angle { .. }));
         let watched = edges.iter().filter(|_| watches).flat_map(Edge::angles).map(|place| (place, 0.0));
         Self {
             watched: watched.collect(),
