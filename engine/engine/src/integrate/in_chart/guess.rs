@@ -14,7 +14,7 @@ pub struct Guess {
     pub p_dot: DVector<f64>,
     /// η.
     pub eta: DVector<f64>,
-    /// Where the chart was taken: p and η.
+    /// The end of the last step, or where the chart was taken: p and η.
     pub taken: (DVector<f64>, DVector<f64>),
     /// Most iterations of a search since the chart was taken.
     pub iterations: usize,
@@ -39,7 +39,19 @@ impl Guess {
         self.iterations = self.iterations.max(other.iterations);
     }
 
-    /// Goes back to where the chart was taken: the next search must not begin where this one was lost.
+    /// Begins the next step where another one of the same chart is.
+    pub fn settle(&mut self, end: &Self) {
+        self.taken.0.copy_from(&end.p);
+        self.taken.1.copy_from(&end.eta);
+    }
+
+    /// The same where it is itself.
+    pub fn settle_here(&mut self) {
+        self.taken.0.copy_from(&self.p);
+        self.taken.1.copy_from(&self.eta);
+    }
+
+    /// Goes back to the end of the last step: the next search must not begin where this one was lost.
     pub fn go_back(&mut self) {
         self.p.copy_from(&self.taken.0);
         self.eta.copy_from(&self.taken.1);

@@ -185,6 +185,9 @@ impl OdeSystem for InCoordinates<'_> {
         if let Some(end) = self.at.and_then(|stage| self.at_stages.get(stage)) {
             self.guess.copy_from(end);
         }
+        // Drivers may have led far from where the chart was taken.
+        self.at_stages.iter_mut().for_each(|stage| stage.settle(self.guess));
+        self.guess.settle_here();
         self.mechanism.state.commit_motion();
         self.chart.commit(self.guess);
     }
