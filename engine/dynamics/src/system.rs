@@ -41,7 +41,7 @@ pub mod planar;
 use crate::model::motion::VectorCurve;
 use crate::model::{BodyRef, Model, ModelBody, wants_joint};
 use crate::system::angle::Angle;
-use crate::system::body::RigidBody;
+use crate::system::body::{RigidBody, least_inertia};
 use crate::system::contact::DryFriction;
 use crate::system::event::EventFunction;
 use crate::system::feature::{Feature, TargetCurve};
@@ -271,8 +271,9 @@ impl System {
     fn add_bodies(&mut self) {
         let layouts = sharing::layouts(&self.model);
         let arms = self.arms();
+        let least = least_inertia(self.model.bodies.iter().map(|body| &body.principal));
         for ((body, layout), arm) in self.model.bodies.iter().zip(layouts).zip(arms) {
-            self.bodies.push(RigidBody::new(body, layout, arm, self.length));
+            self.bodies.push(RigidBody::new(body, layout, arm, self.length, least));
             self.coordinates += layout.size();
             self.rigid_rows += layout.rigid_rows().count();
         }

@@ -47,6 +47,8 @@ const REFINEMENTS: usize = 3;
 /// Most proximal steps that take the effect of inertia regularization out again.
 pub(super) const PROXIMAL_STEPS: usize = 30;
 
+/// Part of the last correction above which the next one is no smaller: both are rounding.
+pub(super) const STALLED: f64 = 0.95;
 /// Part of the multipliers below which a correction is rounding.
 pub(super) const ROUNDING: f64 = 1e-15;
 
@@ -286,8 +288,9 @@ impl Elimination {
             (false, true) => REFINEMENTS,
             (false, false) => 0,
         };
-        let (first, mut last) = (size(&self.residual), f64::INFINITY);
-        for _ in 0..steps {
+        let first = size(&self.residual);
+        let mut last = first;
+        for step in 0..steps {
             self.remove_regularization(system);
             self.row_residual(system);
             self.solve_rows();
@@ -298,7 +301,8 @@ impl Elimination {
             if self.regularizes_inertia && !self.regularized {
                 // Corrections shrink by the same factor each time: the next one would be size²/last.
                 let size = size(&self.residual);
-                if size * size <= ROUNDING * first * last {
+                let small = size * size <= ROUNDING * first * last && first > 0.0;
+                if small || (step + 1 >= REFINEMENTS && size >= STALLED * last) {
                     break;
                 }
                 last = size;

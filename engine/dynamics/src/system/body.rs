@@ -9,8 +9,12 @@ use nalgebra::{Matrix3, Vector3};
 /// regularized: S would be too ill-conditioned to be factored. It has to be small: what turns about such an axis by itself, like a wire in a
 /// hinge, is then moved by its inertia and δ, and the iteration that takes δ out again hardly gets on.
 pub const LACKING: f64 = 1e-9;
-/// δ over m l² of a body that lacks inertia — eq. (7.8).
-pub const REGULARIZING_INERTIA: f64 = 1e-6;
+/// δ over m l² of a body that lacks inertia, at most and at least — eq. (7.8).
+const REGULARIZING_INERTIA: f64 = 1e-4;
+const LEAST_REGULARIZING: f64 = 1e-6;
+/// δ over the least moment of inertia that other bodies lend it through joints, between these: the iteration that takes δ out again leaves
+/// δ/(δ + I) at each step, and rounding grows as δ falls.
+const LENT: f64 = 0.1;
 /// Principal moment of inertia, relative to the largest one, that is rounding: a tensor in numbers has no exact zero.
 const NONE: f64 = 1e-14;
 
@@ -61,9 +65,22 @@ pub struct GroundPivot {
     pub center: Vector3<f64>,
 }
 
+/// The least moment of inertia of all bodies that is one, kg m²: infinite if there is none.
+pub fn least_inertia<'a>(principal: impl Iterator<Item = &'a Vector3<f64>>) -> f64 {
+    let own =
+        |j: &Vector3<f64>| j.iter().copied().filter(|i| *i > NONE * j.max()).fold(f64::INFINITY, f64::min);
+    principal.map(own).fold(f64::INFINITY, f64::min)
+}
+
+/// δ of a body with this m l² among bodies whose least moment of inertia is this.
+pub fn regularizing_inertia(scale: f64, least: f64) -> f64 {
+    (LENT * least).max(LEAST_REGULARIZING * scale).min(REGULARIZING_INERTIA * scale)
+}
+
 impl RigidBody {
-    /// A body of a model with its coordinates, the longest arm of its own joints and loads, m, and a length of the mechanism, m.
-    pub fn new(body: &ModelBody, layout: Layout, arm: f64, length: f64) -> Self {
+    /// A body of a model with its coordinates, the longest arm of its own joints and loads, m, a length of the mechanism, m, and the least
+    /// moment of inertia of all bodies, kg m².
+    pub fn new(body: &ModelBody, layout: Layout, arm: f64, length: f64, least: f64) -> Self {
         let j = body.principal;
         let half = 0.5 * j.sum();
         // A free body needs help only where a moment is missing.
@@ -74,7 +91,7 @@ impl RigidBody {
             mass: body.mass,
             principal: j,
             ibar: j.map(|i| (half - i).max(0.0)),
-            regularizing_inertia: if lacks { REGULARIZING_INERTIA * scale } else { 0.0 },
+            regularizing_inertia: if lacks { regularizing_inertia(scale, least) } else { 0.0 },
             coordinates: body.coordinates,
             layout,
             parts: Vec::new(),

@@ -4,7 +4,7 @@
 //! rows, and what acts on r says nothing.
 
 use crate::model::{BodyRef, ModelBody};
-use crate::system::body::{BodyPart, GroundPivot, RigidBody};
+use crate::system::body::{BodyPart, GroundPivot, RigidBody, least_inertia};
 use crate::system::index::FeatureId;
 use crate::system::natural::NaturalCoordinates;
 use crate::system::planar::Plane;
@@ -114,7 +114,8 @@ impl Pivot {
             place.e = place.e.map(|e| axes.tr_mul(&e));
         }
         let pivot = Some(GroundPivot { ground, center: axes.tr_mul(&-point) });
-        let body = RigidBody::new(&model, old.layout, arm, held.length);
+        let least = least_inertia(held.bodies.iter().map(|body| &body.principal));
+        let body = RigidBody::new(&model, old.layout, arm, held.length, least);
         held.bodies[index] = RigidBody { parts, pivot, ..body };
         for load in &mut held.loads {
             load.turn(|body| (body == index).then(|| (axes.transpose(), point)), None);

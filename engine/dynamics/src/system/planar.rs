@@ -8,7 +8,7 @@
 
 use crate::model::motion::{Curve, VectorCurve};
 use crate::model::{BodyRef, JointGeometry, ModelJoint};
-use crate::system::body::{LACKING, PlanarPose, REGULARIZING_INERTIA, RigidBody};
+use crate::system::body::{LACKING, PlanarPose, RigidBody, least_inertia, regularizing_inertia};
 use crate::system::feature::{Difference, Target};
 use crate::system::index::FeatureId;
 use crate::system::natural::NaturalCoordinates;
@@ -158,6 +158,7 @@ fn set_inertia(flat: &mut System) {
             arms[body] = arms[body].max(feature.local.xy().norm());
         }
     }
+    let least = least_inertia(flat.bodies.iter().map(|body| &body.principal));
     for (body, arm) in flat.bodies.iter_mut().zip(arms) {
         let normal = directors(body).row(2).transpose();
         let inertia = body.principal.dot(&normal.component_mul(&normal));
@@ -165,7 +166,7 @@ fn set_inertia(flat: &mut System) {
         let scale = body.mass * arm * arm;
         let lacks = inertia < LACKING * scale || inertia == 0.0;
         let scale = if scale == 0.0 { body.mass * flat.length * flat.length } else { scale };
-        body.regularizing_inertia = if lacks { REGULARIZING_INERTIA * scale } else { 0.0 };
+        body.regularizing_inertia = if lacks { regularizing_inertia(scale, least) } else { 0.0 };
     }
 }
 

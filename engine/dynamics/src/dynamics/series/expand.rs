@@ -3,7 +3,7 @@
 use super::lanes::{raise_whole, times};
 use super::recurrence::real;
 use super::{Bodies, Series};
-use crate::dynamics::elimination::{PROXIMAL_STEPS, ROUNDING};
+use crate::dynamics::elimination::{PROXIMAL_STEPS, ROUNDING, STALLED};
 use pulp::{Simd, WithSimd};
 use triad_linalg::{fma, larger};
 
@@ -178,8 +178,11 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 let size = self.correction.iter().fold(0.0f64, |most, x| larger(most, x.abs()));
                 if pass == 0 {
                     first = size;
-                } else if size * size <= ROUNDING * first * last {
-                    break;
+                } else {
+                    let small = size * size <= ROUNDING * first * last && first > 0.0;
+                    if small || (pass > REFINEMENTS && size >= STALLED * last) {
+                        break;
+                    }
                 }
                 last = size;
             }
