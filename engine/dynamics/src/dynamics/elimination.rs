@@ -298,11 +298,11 @@ impl Elimination {
                 *lambda += correction;
             }
             self.apply_multipliers(system);
-            if self.regularizes_inertia && !self.regularized {
+            if self.regularizes_inertia {
                 // Corrections shrink by the same factor each time: the next one would be size²/last.
                 let size = size(&self.residual);
-                let small = size * size <= ROUNDING * first * last && first > 0.0;
-                if small || (step + 1 >= REFINEMENTS && size >= STALLED * last) {
+                let small = size * size <= ROUNDING * first * last;
+                if step + 1 >= REFINEMENTS && (small || size >= STALLED * last) {
                     break;
                 }
                 last = size;

@@ -96,7 +96,7 @@ fn a_free_rod_whose_tensor_is_rounded_turns() {
             let (axis, across) = (Vector3::from(axis), Vector3::from(across));
             let turned = Rotation3::new(across) * axis;
             let off = (omega - turned * turned.dot(&omega) - across).norm();
-            assert!(off < 1e-8, "{k}, {way}: {off:e}");
+            assert!(off < 1e-6, "{k}, {way}: {off:e}");
         }
     }
 }

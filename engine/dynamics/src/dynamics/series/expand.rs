@@ -173,14 +173,15 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 }
             }
             self.apply_multipliers(simd, n);
-            if self.regularizes_inertia && !self.regularized {
+            if self.regularizes_inertia {
                 // Corrections shrink by the same factor each time: the next one would be size²/last.
                 let size = self.correction.iter().fold(0.0f64, |most, x| larger(most, x.abs()));
                 if pass == 0 {
                     first = size;
                 } else {
                     let small = size * size <= ROUNDING * first * last && first > 0.0;
-                    if small || (pass > REFINEMENTS && size >= STALLED * last) {
+                    let enough = pass > REFINEMENTS;
+                    if small && (enough || !self.regularized) || enough && size >= STALLED * last {
                         break;
                     }
                 }
