@@ -46,7 +46,6 @@ pub(super) const LOST: f64 = 1e-15;
 const REFINEMENTS: usize = 3;
 /// Most proximal steps that take the effect of inertia regularization out again.
 pub(super) const PROXIMAL_STEPS: usize = 30;
-
 /// Part of the last correction above which the next one is no smaller: both are rounding.
 pub(super) const STALLED: f64 = 0.95;
 /// Part of the multipliers below which a correction is rounding.

@@ -159,8 +159,7 @@ impl Chart {
             }
             Numbers::Coordinates => self.partition(&basis, guess),
         };
-        guess.taken.0.copy_from(&guess.p);
-        guess.taken.1.copy_from(&guess.eta);
+        guess.settle_here();
         taken
     }
 
@@ -248,8 +247,7 @@ impl Chart {
         self.numbers.translate(&before.numbers, found.p.as_mut_slice(), found.p_dot.as_mut_slice());
         self.coordinates(found, x);
         found.eta.copy_from_slice(&x[..self.freedoms()]);
-        found.taken.0.copy_from(&found.p);
-        found.taken.1.copy_from(&found.eta);
+        found.settle_here();
         found.iterations = 0;
         found.tilt.forget();
         Some(self.clone())

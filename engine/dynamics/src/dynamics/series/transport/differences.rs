@@ -224,7 +224,7 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Missed<'_, L, B> {
         let by = [h * h / (p * (p + 1.0)), h / p];
         let mut sizes = [Size::default(); 2];
         let tail = Tail::of::<L, B>(series, twin.stride, order, h, is_own);
-        let (left_out, further) = (tail.after(1.0), tail.accelerations());
+        let (left_out, further) = tail.at_end();
         for (b, added) in added.iter_mut().enumerate() {
             let first = b * twin.stride;
             let terms = first..=first + order;

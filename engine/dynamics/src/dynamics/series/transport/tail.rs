@@ -16,8 +16,7 @@ const MISFIT: f64 = 0.3;
 /// How the terms of a step, cut at order p, go on.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Tail {
-    order: usize,
-    p: f64,
+    p: usize,
     h: f64,
     /// The size to the powers of p and p − 1.
     powers: [f64; 2],
@@ -39,7 +38,7 @@ impl Tail {
         let enough = is_own && order > LOOKED_AT;
         let products = if enough { products::<L, B>(series, stride, order, h) } else { Products::default() };
         let recurrence = recurrence(&products).unwrap_or_default();
-        Self { order, p: order as f64, h, powers: [before * h, before], recurrence }
+        Self { p: order, h, powers: [before * h, before], recurrence }
     }
 
     /// What the coefficients of order p and p − 1 have to be multiplied with for what is left out after a part x of the step, of positions
@@ -47,22 +46,29 @@ impl Tail {
     #[inline(always)]
     pub fn after(&self, x: f64) -> [[f64; 2]; 2] {
         let [positions, rates, _] = self.sums(x);
-        let by = |sums: [f64; 2], steps: f64| [0, 1].map(|k| sums[k] * self.powers[k] / steps);
-        [by(positions, 1.0), by(rates, self.h)]
+        self.in_time([positions, rates])
     }
 
-    /// The same of accelerations at the end of the step, beyond hᵖ⁻² and hᵖ⁻³.
+    /// The same at the end of the step, and of accelerations there, beyond hᵖ⁻² and hᵖ⁻³.
     #[inline(always)]
-    pub fn accelerations(&self) -> [f64; 2] {
-        self.sums(1.0)[2]
+    pub fn at_end(&self) -> ([[f64; 2]; 2], [f64; 2]) {
+        let [positions, rates, accelerations] = self.sums(1.0);
+        (self.in_time([positions, rates]), accelerations)
+    }
+
+    #[inline(always)]
+    fn in_time(&self, [positions, rates]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+        let by = |sums: [f64; 2], steps: f64| [0, 1].map(|k| sums[k] * self.powers[k] / steps);
+        [by(positions, 1.0), by(rates, self.h)]
     }
 
     /// Sums of the terms that are left out and of those of their derivatives with respect to x, in parts of the last two terms. Those of one
     /// pair of times have a sum, xᵖ G(x) with G = N/D.
     #[inline(always)]
     fn sums(&self, x: f64) -> [[f64; 2]; 3] {
-        let Self { p, recurrence: [c1, c2], .. } = *self;
-        let power = (2..self.order).fold(1.0, |power, _| power * x);
+        let Self { recurrence: [c1, c2], .. } = *self;
+        let p = self.p as f64;
+        let power = (2..self.p).fold(1.0, |power, _| power * x);
         let d = [1.0 - x * fma(c2, x, c1), -fma(2.0 * c2, x, c1), -2.0 * c2];
         let numerators = [[x * fma(c2, x, c1), fma(2.0 * c2, x, c1), 2.0 * c2], [c2 * x, c2, 0.0]];
         let mut sums = [[0.0; 2]; 3];
