@@ -189,6 +189,18 @@ fn a_run_writes_a_table_a_recording_and_a_film_and_says_how_far_it_can_be_truste
 }
 
 #[test]
+fn the_last_row_of_a_table_is_written_once() {
+    for (until, every, count) in [("0.9", "0.3", 4), ("0.9", "0.15", 7), ("2.1", "0.7", 4), ("0.9", "0.4", 4)]
+    {
+        let written = run(&["run", "simple-pendulum", "--until", until, "--every", every, "--out", "-"]);
+        let text = String::from_utf8(written.stdout).unwrap();
+        let rows = text.lines().filter(|line| !line.starts_with('#')).skip(2);
+        let times: Vec<&str> = rows.filter_map(|row| row.split(',').next()).collect();
+        assert_eq!((times.len(), times.last()), (count, Some(&until)), "{times:?}");
+    }
+}
+
+#[test]
 fn reports_are_written_into_folders_that_are_not_there_yet_and_a_bad_place_is_told_before_the_work() {
     let folder = tempfile::tempdir().unwrap();
     let report = folder.path().join("reports/stress.html");

@@ -13,7 +13,7 @@ use serde_json::json;
 use std::sync::Mutex;
 use std::time::Instant;
 use triad_engine::run::{Outputs, Simulation, Snapshot, StateView};
-use triad_engine::scene::{OutputKind, Scene};
+use triad_engine::scene::{OutputKind, OutputTimes, Scene};
 use triad_lab::film::Film;
 use triad_lab::verify::Verifier;
 
@@ -57,7 +57,8 @@ fn advance(
     progress: Option<&Py<PyAny>>,
 ) -> PyResult<(Motion, Option<PyErr>)> {
     let settings = &scene.simulation;
-    let rows = settings.duration / settings.every;
+    let times = settings.output_times();
+    let rows = times.intervals();
     if rows > MAX_OUTPUTS {
         let what = format!("{} s in steps of {} s make {rows:.0} outputs", settings.duration, settings.every);
         return Err(Refusal::new("too-many-outputs", what, "give a larger every, or a smaller until").into());
@@ -77,7 +78,7 @@ fn advance(
         began: Instant::now(),
         most_seconds: options.most_seconds,
     };
-    let stopped = course.follow(&mut run, &outputs, settings.every).err();
+    let stopped = course.follow(&mut run, &outputs, &times).err();
     let Course { record, snapshots, verifier, .. } = course;
     let verified = verifier.map(|verifier| {
         let found = verifier.found();
@@ -108,13 +109,12 @@ struct Course<'a> {
 
 impl Course<'_> {
     /// From output to output to the end. The last good state before an error is an output too.
-    fn follow(&mut self, run: &mut Simulation, outputs: &Outputs, every: f64) -> PyResult<()> {
+    fn follow(&mut self, run: &mut Simulation, outputs: &Outputs, times: &OutputTimes) -> PyResult<()> {
         self.write(run, outputs);
-        let mut index = 0_u64;
+        let mut index = 0;
         while !run.finished() {
             index += 1;
-            #[allow(clippy::cast_precision_loss, reason = "outputs stay far below 2^52")]
-            let time = (index as f64 * every).min(run.duration());
+            let time = times.at(index);
             let written = run.time();
             if let Err(stop) = self.go_on(run, time) {
                 let reached = run.reached();

@@ -25,6 +25,8 @@ mod handle;
 
 mod outputs;
 
+mod times;
+
 mod settings;
 
 mod elements;
@@ -55,4 +57,5 @@ pub use parameter::{MAX_PARAMETERS, OnChange, Parameter, Place, Places};
 pub use scene::{Scene, SceneElement, schema};
 pub use settings::{ConstraintMethod, IntegratorKind, Settings, Skip};
 pub use text::UnknownWord;
+pub use times::OutputTimes;
 pub use value::Triple;

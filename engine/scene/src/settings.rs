@@ -2,6 +2,7 @@
 
 use crate::outputs::{Output, OutputKind};
 use crate::text::words;
+use crate::times::OutputTimes;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -35,6 +36,11 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// When a run is looked at.
+    pub fn output_times(&self) -> OutputTimes {
+        OutputTimes::new(self.every, self.duration)
+    }
+
     /// Whether its outputs hold estimated errors.
     pub fn tells_errors(&self) -> bool {
         self.outputs.iter().any(|output| output.kind == OutputKind::Errors)

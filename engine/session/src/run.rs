@@ -4,7 +4,7 @@ use http::StatusCode;
 use triad_engine::EngineError;
 use triad_engine::model::Model;
 use triad_engine::run::{Simulation, StateView};
-use triad_engine::scene::Scene;
+use triad_engine::scene::{OutputTimes, Scene};
 
 use crate::change::{AfterChange, Drag, SceneChange, SessionScene, as_it_runs};
 use crate::drawing::{Arrows, Camera};
@@ -298,18 +298,26 @@ impl Run {
         Ok(true)
     }
 
+    /// The scene's output times.
+    fn output_times(&self) -> OutputTimes {
+        self.simulation.model().settings.output_times()
+    }
+
+    /// The time so many seconds ahead, s.
+    pub fn ahead(&self, seconds: f64) -> f64 {
+        self.output_times().meant(self.simulation.time() + seconds)
+    }
+
     /// Goes on towards simulated time `target`, or the end of the run, by a few steps or to the next of the scene's output
     /// times; returns whether there is more to do.
     ///
     /// Errors if the engine cannot go on.
     pub fn advance(&mut self, target: f64) -> Result<bool, Refusal> {
-        let every = self.simulation.model().settings.every;
         let target = target.min(self.simulation.duration());
         if self.simulation.time() >= target {
             return Ok(false);
         }
-        // The next of the scene's output times; the slack keeps rounding from making one twice.
-        let next = ((self.simulation.time() / every + 1e-6).floor() + 1.0) * every;
+        let next = self.output_times().after(self.simulation.time());
         if self.simulation.advance_towards(next.min(target), STEPS_AT_ONCE)? {
             self.record();
         }
@@ -321,8 +329,7 @@ impl Run {
     pub fn due(&self, now: f64) -> Option<f64> {
         let play = self.play?;
         let due = play.from + (now - play.since) * self.speed;
-        let every = self.simulation.model().settings.every;
-        Some(if due < self.simulation.duration() { (due / every + 1e-6).floor() * every } else { due })
+        Some(self.output_times().reached(due))
     }
 
     /// The owner has let a playing run come as near to `target` as it could. Where the engine cannot keep up, the run

@@ -159,7 +159,7 @@ impl Live {
         self.run.ready()?;
         let left = match stretch {
             Stretch::Steps(steps) => Left::Steps(steps),
-            Stretch::Seconds(seconds) => Left::Until(self.run.time() + seconds),
+            Stretch::Seconds(seconds) => Left::Until(self.run.ahead(seconds)),
         };
         self.task = Some(Task { request: request.id, left });
         Ok(())

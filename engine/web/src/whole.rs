@@ -69,9 +69,9 @@ impl Arrays {
     pub fn of(asked: WholeRun) -> Result<Self, Refusal> {
         let mut scene = Scene::from_json(&asked.scene.to_string())?;
         asked.overrides.apply(&mut scene);
-        let every = scene.simulation.every;
+        let times = scene.simulation.output_times();
         let mut run = Simulation::new(&scene)?;
-        let frames = (run.duration() / every).floor() + 1.0;
+        let frames = times.intervals() + 1.0;
         #[allow(clippy::cast_precision_loss, reason = "a count of bodies and joints")]
         let numbers = frames * 12.0 * (scene.bodies.len() + scene.joints.len()) as f64;
         if numbers > MAX_NUMBERS {
@@ -84,11 +84,12 @@ impl Arrays {
             ));
         }
         let mut arrays = Self::default();
-        let mut frame = 0_u32;
-        while f64::from(frame) < frames {
-            run.advance_to((f64::from(frame) * every).min(run.duration()))?;
-            arrays.add(&run);
+        arrays.add(&run);
+        let mut frame = 0;
+        while !run.finished() {
             frame += 1;
+            run.advance_to(times.at(frame))?;
+            arrays.add(&run);
         }
         arrays.steps = run.summary().steps;
         Ok(arrays)

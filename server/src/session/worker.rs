@@ -163,7 +163,7 @@ impl Worker {
 
     /// Lets simulated seconds pass, up to the end of the run, unless it is interrupted or who asked for them has `left`.
     fn seconds(&mut self, seconds: f64, left: &dyn Fn() -> bool) -> Result<(), Problem> {
-        let (target, deadline) = (self.run.time() + seconds, Instant::now() + self.command_time);
+        let (target, deadline) = (self.run.ahead(seconds), Instant::now() + self.command_time);
         let mut slice = self.slice();
         while !self.signals.interrupted() && !left() && self.run.advance(target)? {
             self.in_time(deadline)?;

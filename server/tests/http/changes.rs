@@ -130,6 +130,11 @@ async fn a_run_is_written_as_a_table_with_the_chosen_outputs() {
     assert_eq!(rows[..2], ["time,pin.angle,pin.angle_rate,energy", "s,rad,rad/s,J"]);
     let times: Vec<&str> = rows[2..].iter().filter_map(|row| row.split(',').next()).collect();
     assert_eq!(times, ["0", "0.25", "0.5", "0.6"]);
+    // A multiple that rounding puts right before the end is the end.
+    let thirds = json!({"scene": scene, "outputs": ["energy"], "every": 0.3, "until": 0.9});
+    let reply = post(&server, path, &thirds).await;
+    let written = String::from_utf8(reply.bytes.to_vec()).expect("text");
+    assert_eq!(written.lines().filter(|line| !line.starts_with('#')).count(), 2 + 4, "{written}");
     // The numbers are those of the run, to the last bit.
     let mut scene = triad_engine::Scene::from_json(&scene.to_string()).expect("a scene").duration(0.6);
     scene.simulation.outputs = vec!["joints:pin".parse().expect("an output")];

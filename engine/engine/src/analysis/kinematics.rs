@@ -100,7 +100,8 @@ pub fn kinematics_if(
     let settings = &scene.simulation;
     let mut path = Path::new(scene)?;
     path.stage.wanted = wanted.clone();
-    let positions = settings.duration / settings.every;
+    let times = settings.output_times();
+    let positions = times.intervals();
     if positions > MAX_POSITIONS {
         return Err(AnalysisError::TooManyPositions { positions });
     }
@@ -110,8 +111,7 @@ pub fn kinematics_if(
     notes.extend(masses.without_friction());
     let mut states = Vec::new();
     loop {
-        let time = (states.len() as f64 * settings.every).min(settings.duration);
-        path.go_to(time)?;
+        path.go_to(times.at(states.len()))?;
         let time = path.stage.time;
         masses.take(&path.stage, &path.accelerations);
         for idle in &idle {

@@ -276,7 +276,7 @@ fn a_spring_about_an_axis_counts_whole_turns_between_outputs() {
 fn more_positions_than_one_analysis_gives_are_refused() {
     let error =
         kinematics(&FourBar::new([1.0, 3.4, 1.65, 4.0]).scene(4.0, 1e-5), Convention::default()).unwrap_err();
-    assert_eq!(error, AnalysisError::TooManyPositions { positions: 4.0 / 1e-5 });
+    assert_eq!(error, AnalysisError::TooManyPositions { positions: 400_000.0 });
 }
 
 #[test]

@@ -5,7 +5,7 @@
 
 use triad_engine::prelude::*;
 use triad_engine::run::{Moment, Outputs, RowWriter};
-use triad_engine::scene::{Output, OutputKind};
+use triad_engine::scene::{Output, OutputKind, OutputTimes};
 
 /// The numbers of the current state by the names of their columns.
 fn row(run: &Simulation) -> impl Fn(&str) -> f64 + use<> {
@@ -168,4 +168,37 @@ fn a_table_says_where_reactions_are_not_all_unique() {
     assert!(tells("n-four-bar:2", &["bodies", "reactions:B1"]));
     assert!(!tells("n-four-bar:2", &["bodies"]), "no reactions");
     assert!(!tells("simple-pendulum", &["reactions"]), "all are unique");
+}
+
+#[test]
+fn rounding_neither_doubles_the_last_time_nor_leaves_it_out() {
+    for parts in 1..=60_u32 {
+        for end in [0.1, 0.3, 0.7, 0.9, 1.0, 2.1, 10.0] {
+            let every = end / f64::from(parts);
+            // As it is computed, and as an author writes it.
+            let written: f64 = format!("{every:.12}").parse().unwrap();
+            for every in [every, written] {
+                let times = OutputTimes::new(every, end);
+                assert_eq!(times.intervals(), f64::from(parts), "{end} {every}");
+                let all: Vec<f64> =
+                    (0..=usize::try_from(parts).unwrap()).map(|index| times.at(index)).collect();
+                assert_eq!((all[0], all.last()), (0.0, Some(&end)), "{end} {every}");
+                assert!(all.windows(2).all(|two| two[1] - two[0] > 0.9 * every), "{all:?}");
+                // Whoever goes from one to the next meets the same.
+                for two in all.windows(2) {
+                    assert_eq!(
+                        (times.after(two[0]), times.reached(two[1])),
+                        (two[1], two[1]),
+                        "{end} {every}"
+                    );
+                }
+            }
+        }
+    }
+    let shorter = OutputTimes::new(0.4, 0.9);
+    assert_eq!([0, 1, 2, 3].map(|index| shorter.at(index)), [0.0, 0.4, 0.8, 0.9]);
+    assert_eq!((shorter.reached(0.7), shorter.after(0.8)), (0.4, 0.9));
+    // Longer than the run, and no interval at all, which is refused elsewhere.
+    assert_eq!([0, 1, 2].map(|index| OutputTimes::new(1e9, 1.0).at(index)), [0.0, 1.0, 1.0]);
+    assert_eq!(OutputTimes::new(0.0, 1.0).intervals(), 1.0);
 }

@@ -14,7 +14,7 @@ use serde::Deserialize;
 use serde_json::Value;
 use triad_engine::analysis::Wanted;
 use triad_engine::run::Simulation;
-use triad_engine::scene::Scene;
+use triad_engine::scene::{OutputTimes, Scene};
 use triad_lessons::grading::AskedTable;
 use triad_lessons::lesson::Lesson;
 use utoipa_axum::router::OpenApiRouter;
@@ -60,9 +60,9 @@ async fn asked_table(
         let mut scene = Scene::from_json(&asked.scene.to_string())?;
         session::bounded(&scene, &app.limits)?;
         scene.simulation.duration = table.end();
-        let every = table.interval(scene.simulation.every);
+        let times = OutputTimes::new(table.interval(scene.simulation.every), table.end());
         let mut text = table.names() + "\n";
-        along(&mut Simulation::new(&scene)?, every, app.limits.command_time, wanted, |run| {
+        along(&mut Simulation::new(&scene)?, &times, app.limits.command_time, wanted, |run| {
             // The shortest digits that are read back as the same numbers.
             let _ = write!(text, "{}", run.time());
             for value in table.row(&scene, run).map_err(not_measured)? {

@@ -109,7 +109,7 @@ async fn analyse<T: Serialize>(
     let job = move |wanted: &Wanted| {
         let scene = Scene::from_json(&asked.scene.to_string())?;
         session::bounded(&scene, &Limits { bodies: app.limits.analysed_bodies, ..(*app.limits).clone() })?;
-        let times = scene.simulation.duration / scene.simulation.every;
+        let times = scene.simulation.output_times().intervals();
         if times > MAX_TIMES {
             let detail = format!("the scene asks for {times:.0} output times, more than {MAX_TIMES}");
             return Err(Problem::new(

@@ -11,7 +11,7 @@ use serde::Deserialize;
 use serde_json::Value;
 use triad_engine::analysis::Wanted;
 use triad_engine::run::{Outputs, Simulation};
-use triad_engine::scene::{Output, Scene};
+use triad_engine::scene::{Output, OutputTimes, Scene};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
@@ -83,8 +83,8 @@ async fn table(
 fn written(scene: &Scene, time: Duration, wanted: &Wanted) -> Result<Vec<u8>, Problem> {
     let mut run = Simulation::new(scene)?;
     let outputs = Outputs::new(&run);
-    let every = scene.simulation.every;
-    let numbers = (run.duration() / every + 1.0) * (outputs.columns().len() + 1) as f64;
+    let times = scene.simulation.output_times();
+    let numbers = (times.intervals() + 1.0) * (outputs.columns().len() + 1) as f64;
     if numbers > MAX_NUMBERS {
         return Err(Problem::new(
             StatusCode::UNPROCESSABLE_ENTITY,
@@ -95,7 +95,7 @@ fn written(scene: &Scene, time: Duration, wanted: &Wanted) -> Result<Vec<u8>, Pr
     }
     let mut table = TextTable::new(Vec::new(), &run, &outputs).map_err(Problem::internal)?;
     let mut row = Vec::new();
-    along(&mut run, every, time, wanted, |run| {
+    along(&mut run, &times, time, wanted, |run| {
         row.clear();
         row.push(run.time());
         outputs.write(run, &mut row);
@@ -104,18 +104,18 @@ fn written(scene: &Scene, time: Duration, wanted: &Wanted) -> Result<Vec<u8>, Pr
     table.finish().map_err(Problem::internal)
 }
 
-/// Looks at a run at equal intervals from its start to its end, as long as it is wanted and within the time of a request.
+/// Looks at a run at the times of its outputs, from its start to its end, as long as it is wanted and within the time of a request.
 pub(in crate::api) fn along(
     run: &mut Simulation,
-    every: f64,
+    times: &OutputTimes,
     time: Duration,
     wanted: &Wanted,
     mut look: impl FnMut(&Simulation) -> Result<(), Problem>,
 ) -> Result<(), Problem> {
     let began = Instant::now();
-    let mut index = 0_u64;
+    let mut index = 0;
     loop {
-        let next = (index as f64 * every).min(run.duration());
+        let next = times.at(index);
         while !run.advance_towards(next, PIECE)? {
             in_time(began, time, run.reached(), wanted)?;
         }

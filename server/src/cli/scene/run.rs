@@ -7,7 +7,7 @@ use axum::http::StatusCode;
 use triad_engine::EngineError;
 use triad_engine::model::Model;
 use triad_engine::run::Simulation;
-use triad_engine::scene::{IntegratorKind, Scene, Skip};
+use triad_engine::scene::{IntegratorKind, OutputTimes, Scene, Skip};
 use triad_lab::film::Film;
 use triad_lab::verify::Verifier;
 use triad_session::picture::{Sample, describe, sample};
@@ -56,7 +56,7 @@ pub(in crate::cli) fn run(options: &Run, json: bool) -> Result<Outcome, Problem>
     let bar = progress(&scene.name, simulation.duration(), json);
     let bounds = Bounds::new(options);
     clock.lap("open outputs");
-    let course = Course { every: scene.simulation.every, bounds: &bounds, bar: &bar };
+    let course = Course { times: scene.simulation.output_times(), bounds: &bounds, bar: &bar };
     let stopped = advance(&mut simulation, verifier.as_mut(), &mut outputs, &course, &mut clock);
     drop(bar);
     // What was reached before an error is kept.
@@ -97,7 +97,7 @@ fn scene(options: &Run) -> Result<Scene, Problem> {
     if asked || options.out.is_some() {
         with_errors(simulation, asked, LEAVE_OUT)?;
     }
-    let outputs = simulation.duration / simulation.every;
+    let outputs = simulation.output_times().intervals();
     if options.writes() && outputs > MAX_OUTPUTS {
         return Err(Problem::new(
             StatusCode::UNPROCESSABLE_ENTITY,
@@ -170,8 +170,8 @@ impl Bounds {
 
 /// How a run goes on.
 struct Course<'a> {
-    /// Time between outputs, s.
-    every: f64,
+    /// When something is written.
+    times: OutputTimes,
     bounds: &'a Bounds,
     bar: &'a TimeBar,
 }
@@ -180,15 +180,15 @@ fn advance(
     simulation: &mut Simulation,
     mut verifier: Option<&mut Verifier>,
     outputs: &mut Outputs,
-    &Course { every, bounds, bar }: &Course,
+    &Course { times, bounds, bar }: &Course,
     clock: &mut Clock,
 ) -> Result<(), Stop> {
     outputs.write(simulation).map_err(Stop::Output)?;
     clock.lap("write");
-    let mut index = 0_u64;
+    let mut index = 0;
     while !simulation.finished() {
         index += 1;
-        let time = (index as f64 * every).min(simulation.duration());
+        let time = times.at(index);
         let written = simulation.time();
         if let Err(stop) = to(simulation, time, bounds) {
             // The last good state is an output too.
