@@ -13,6 +13,7 @@ mod cause;
 mod errors;
 mod events;
 mod explain;
+mod notes;
 mod outputs;
 mod queries;
 mod restart;
@@ -37,6 +38,7 @@ use crate::model::{CustomLoadError, Model};
 use crate::scene::IntegratorKind;
 use companion::Companion;
 use examiner::Examiner;
+use notes::Notes;
 use seen::Seen;
 use singularity::SingularityMonitor;
 use state_view::CachedState;
@@ -71,7 +73,7 @@ pub struct Simulation {
     reason: String,
     start: Vec<f64>,
     rank: Rank,
-    notes: Vec<String>,
+    notes: Notes,
     /// The current state: at the end of the last step, or before it.
     current: CachedState,
     start_energy: f64,
@@ -119,9 +121,9 @@ impl Simulation {
         &self.rank
     }
 
-    /// What was found or corrected when the run was started, in sentences.
+    /// What was found or corrected when the run began, in sentences.
     pub fn notes(&self) -> &[String] {
-        &self.notes
+        self.notes.all()
     }
 
     /// End of the run, s.

@@ -6,7 +6,9 @@ use http::StatusCode;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use triad_engine::EngineError;
 use triad_engine::model::Model;
+use triad_engine::run::Simulation;
 use triad_engine::scene::{Load, OnChange, Scene, WrittenScene};
 
 use crate::refusal::{Refusal, suggest};
@@ -73,12 +75,6 @@ impl SceneChange {
             && self.values.keys().all(|name| offered(name).is_ok_and(|then| then == AfterChange::Continue));
         Ok((changed, self.then.unwrap_or(if goes_on { AfterChange::Continue } else { AfterChange::Restart })))
     }
-}
-
-/// A changed scene as the engine is given it: the ranges of its parameters are the author's promise about the scene as
-/// written, and an expert may leave them.
-pub(crate) fn as_it_runs(scene: &Scene) -> Scene {
-    Scene { parameters: Vec::new(), ..scene.clone() }
 }
 
 /// A number that may be changed, as it is now.
@@ -164,7 +160,7 @@ impl Drag {
     /// The scene with the spring in it.
     ///
     /// Errors if there is no such body, or the stiffness is not positive.
-    pub fn added_to(&self, scene: &Scene, model: &Model) -> Result<Scene, Refusal> {
+    fn added_to(&self, scene: &Scene, model: &Model) -> Result<Scene, Refusal> {
         let wrong = |pointer: &str, detail: String, hint: String| {
             Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, "cannot-pull", detail.clone(), hint)
                 .at(pointer, detail)
@@ -203,4 +199,17 @@ impl Drag {
         });
         Ok(dragged)
     }
+}
+
+/// A changed scene as the engine is given it, with the spring of a drag: the ranges of its parameters are the author's promise about
+/// the scene as written, and an expert may leave them.
+///
+/// Errors if the scene is refused, or there is no such body.
+pub(crate) fn assembled(scene: &Scene, drag: Option<&Drag>) -> Result<Simulation, Refusal> {
+    let mut scene = Scene { parameters: Vec::new(), ..scene.clone() };
+    if let Some(drag) = drag {
+        let model = Model::new(&scene).map_err(EngineError::from)?;
+        scene = drag.added_to(&scene, &model)?;
+    }
+    Ok(Simulation::new(&scene)?)
 }

@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 use triad_engine::run::Snapshot;
 use triad_engine::scene::Scene;
 
+use crate::accuracy::Since;
+use crate::change::Drag;
 use crate::state::SceneSource;
 
 /// A session at one moment, as it goes on later: its scene and the state of the run, not its recording.
@@ -19,6 +21,12 @@ pub struct KeptSession {
     pub(crate) state: Snapshot,
     pub(crate) playing: bool,
     pub(crate) speed: f64,
+    /// What is known of its errors.
+    #[serde(default)]
+    pub(crate) since: Since,
+    /// The spring by which a body is dragged.
+    #[serde(default)]
+    pub(crate) drag: Option<Drag>,
 }
 
 impl KeptSession {

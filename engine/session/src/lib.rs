@@ -11,6 +11,8 @@ pub mod picture;
 
 pub mod change;
 
+mod accuracy;
+
 mod history;
 
 mod state;

@@ -6,13 +6,14 @@ use triad_engine::model::Model;
 use triad_engine::run::{Simulation, StateView};
 use triad_engine::scene::{OutputTimes, Scene};
 
-use crate::change::{AfterChange, Drag, SceneChange, SessionScene, as_it_runs};
+use crate::accuracy::Since;
+use crate::change::{AfterChange, Drag, SceneChange, SessionScene, assembled};
 use crate::drawing::{Arrows, Camera};
 use crate::history::{History, SAME_TIME, unknown};
 use crate::kept::KeptSession;
 use crate::picture::{Samples, describe};
 use crate::refusal::Refusal;
-use crate::state::{Drawing, SceneSource, SessionFacts, SessionState};
+use crate::state::{Drawing, SceneSource, SessionFacts, SessionState, tells_forces};
 
 /// Integrator steps between two looks at the clock and at what others ask.
 const STEPS_AT_ONCE: u64 = 32;
@@ -43,8 +44,8 @@ pub struct Run {
     /// The scene that runs, without the spring of a drag.
     scene: Scene,
     changes: u64,
-    /// When the run went on with other numbers last, s: its estimated errors count from then on.
-    errors_from: Option<f64>,
+    /// Since when its estimated errors count.
+    since: Since,
     drag: Option<Drag>,
     simulation: Simulation,
     samples: Samples,
@@ -74,7 +75,7 @@ impl Run {
             (original.clone(), Simulation::from_model(model)?)
         } else {
             let (scene, _) = change.of(&original)?;
-            let simulation = Simulation::new(&as_it_runs(&scene))?;
+            let simulation = assembled(&scene, None)?;
             (scene, simulation)
         };
         Ok(Self::of(id, source, original, scene, simulation, bytes))
@@ -84,13 +85,21 @@ impl Run {
     ///
     /// Errors if its scene is refused by this program; none if the state is of another program.
     pub fn resume(kept: KeptSession, bytes: usize, now: f64) -> Result<Option<Self>, Refusal> {
-        let KeptSession { id, source, original, scene, changes, state, playing, speed } = kept;
-        let mut simulation = Simulation::new(&as_it_runs(&scene))?;
+        let KeptSession { id, source, original, scene, changes, state, playing, speed, since, drag } = kept;
+        let mut simulation = assembled(&scene, drag.as_ref())?;
         if !simulation.resume(&state) {
             return Ok(None);
         }
         let play = playing.then(|| Play { since: now, from: simulation.time() });
-        Ok(Some(Self { changes, play, speed, ..Self::of(id, source, original, scene, simulation, bytes) }))
+        let since = since.or_unknown(simulation.time());
+        Ok(Some(Self {
+            changes,
+            since,
+            drag,
+            play,
+            speed,
+            ..Self::of(id, source, original, scene, simulation, bytes)
+        }))
     }
 
     fn of(
@@ -113,7 +122,7 @@ impl Run {
             original,
             scene,
             changes: 0,
-            errors_from: None,
+            since: Since::default(),
             drag: None,
             simulation,
             samples,
@@ -135,6 +144,8 @@ impl Run {
             state: self.simulation.snapshot(),
             playing: self.play.is_some(),
             speed: self.speed,
+            since: self.since.taken_up(&self.simulation, tells_forces(&self.simulation)),
+            drag: self.drag.clone(),
         }
     }
 
@@ -176,7 +187,7 @@ impl Run {
         self.play = None;
         self.error = None;
         self.simulation.reset();
-        self.errors_from = None;
+        self.since = Since::default();
         self.samples.restart();
         self.history.clear();
         self.record();
@@ -190,7 +201,7 @@ impl Run {
         if then == AfterChange::Restart {
             self.drag = None;
         }
-        let mut next = self.assembled(&scene, self.drag.as_ref())?;
+        let mut next = assembled(&scene, self.drag.as_ref())?;
         let description = describe(&scene, &next);
         match then {
             AfterChange::Restart => self.error = None,
@@ -201,14 +212,14 @@ impl Run {
         self.changes += 1;
         match then {
             AfterChange::Restart => {
-                self.errors_from = None;
+                self.since = Since::default();
                 self.samples.restart_with(description);
                 self.history.clear();
             }
             AfterChange::Continue => {
                 self.samples.follow(description);
                 self.history.start_segment(before);
-                self.errors_from = Some(self.simulation.time());
+                self.since = Since::change(self.simulation.time());
             }
         }
         self.run_on(now);
@@ -220,20 +231,13 @@ impl Run {
     ///
     /// Errors if there is no such body, or the run cannot go on.
     pub fn drag(&mut self, drag: Option<Drag>, now: f64) -> Result<(), Refusal> {
-        let mut next = self.assembled(&self.scene, drag.as_ref())?;
+        let mut next = assembled(&self.scene, drag.as_ref())?;
         self.transfer_state(&mut next)?;
         self.history.start_segment(std::mem::replace(&mut self.simulation, next));
-        self.errors_from = Some(self.simulation.time());
+        self.since = Since::change(self.simulation.time());
         self.drag = drag;
         self.run_on(now);
         Ok(())
-    }
-
-    fn assembled(&self, scene: &Scene, drag: Option<&Drag>) -> Result<Simulation, Refusal> {
-        Ok(match drag {
-            None => Simulation::new(&as_it_runs(scene))?,
-            Some(drag) => Simulation::new(&as_it_runs(&drag.added_to(scene, self.simulation.model())?))?,
-        })
     }
 
     /// Lets another simulation go on from the state of the current one.
@@ -392,7 +396,7 @@ impl Run {
             drawing: Drawing::of(&self.samples),
             changes: self.changes,
             drag: self.drag.clone(),
-            errors_from: self.errors_from.filter(|time| *time > 0.0),
+            since: self.since.clone(),
             error: self.error.as_ref().map(|error| error.document(trace_id())),
         };
         SessionState::of(&self.simulation, facts)

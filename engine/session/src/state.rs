@@ -2,8 +2,9 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use triad_engine::run::{ErrorEstimate, Simulation};
+use triad_engine::run::Simulation;
 
+use crate::accuracy::{Accuracy, Since};
 use crate::change::Drag;
 use crate::drawing::{Arrows, Camera};
 use crate::picture::Samples;
@@ -60,44 +61,6 @@ pub struct JointForce {
     pub force: [f64; 3],
     /// Moment about the joint's point, N m.
     pub moment: [f64; 3],
-}
-
-/// Estimated errors of a state, each the largest over all bodies or joints: what the run has collected since its start, or since
-/// its numbers were changed.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Accuracy {
-    /// Of centres of mass, m.
-    pub position: f64,
-    /// Of directions, rad.
-    pub turn: f64,
-    /// Of velocities of centres of mass, m/s.
-    pub velocity: f64,
-    /// Of angular velocities, rad/s.
-    pub angular_velocity: f64,
-    /// Of the energy, J.
-    pub energy: f64,
-    /// Of forces in joints and drivers, N; absent where the state tells no forces.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub force: Option<f64>,
-    /// Of their moments, N m.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub moment: Option<f64>,
-}
-
-impl Accuracy {
-    /// That of the run's current state, with that of its forces if these are told.
-    fn of(simulation: &Simulation, error: ErrorEstimate, forces: bool) -> Self {
-        let reactions = if forces { simulation.reaction_errors() } else { None };
-        Self {
-            position: error.position,
-            turn: error.turn,
-            velocity: error.velocity,
-            angular_velocity: error.angular_velocity,
-            energy: error.energy,
-            force: reactions.map(|found| found.force),
-            moment: reactions.map(|found| found.moment),
-        }
-    }
 }
 
 /// How forces are drawn in the viewer, for the page to do alike.
@@ -254,8 +217,8 @@ pub(crate) struct SessionFacts {
     pub drawing: Drawing,
     pub changes: u64,
     pub drag: Option<Drag>,
-    /// When the run went on with other numbers, s.
-    pub errors_from: Option<f64>,
+    /// Since when errors count.
+    pub since: Since,
     pub error: Option<ProblemDocument>,
 }
 
@@ -265,14 +228,8 @@ impl SessionState {
         let summary = simulation.summary();
         let frame = simulation.frame();
         let accelerations = simulation.mass_accelerations();
-        let forces = forces(simulation);
-        let accuracy = summary.error.map(|error| Accuracy::of(simulation, error, !forces.is_empty()));
-        let mut notes = [simulation.notes(), &summary.doubts].concat();
-        if let (Some(time), Some(_)) = (facts.errors_from, &accuracy) {
-            notes.push(format!(
-                "estimated errors count from t = {time:.3} s on, when the numbers of the run were changed"
-            ));
-        }
+        let known = facts.since.known(simulation, &summary, tells_forces(simulation));
+        let notes = [known.notes.as_slice(), &facts.since.notes(&known)].concat();
         let poses = frame.bodies.iter().zip(&accelerations);
         let bodies =
             simulation.model().bodies.iter().zip(poses).map(|(body, (pose, &acceleration))| SessionBody {
@@ -299,11 +256,11 @@ impl SessionState {
             q: simulation.q().to_vec(),
             q_dot: simulation.q_dot().to_vec(),
             energy: summary.energy,
-            energy_drift: summary.energy_drift,
+            energy_drift: known.energy_drift.unwrap_or(summary.energy_drift),
             position_violation: summary.position_violation,
             velocity_violation: summary.velocity_violation,
-            accuracy,
-            error_unknown_from: summary.error_unknown_from,
+            accuracy: known.accuracy,
+            error_unknown_from: known.error_unknown_from,
             steps: summary.steps,
             rejected: summary.rejected,
             evaluations: summary.evaluations,
@@ -318,14 +275,19 @@ impl SessionState {
             notes,
             error: facts.error,
             bodies: bodies.collect(),
-            forces,
+            forces: forces(simulation),
             gravity: simulation.model().gravity.into(),
         }
     }
 }
 
+/// Whether its state tells forces.
+pub(crate) fn tells_forces(simulation: &Simulation) -> bool {
+    (1..=MAX_FORCES).contains(&simulation.system().constraints.len())
+}
+
 fn forces(simulation: &Simulation) -> Vec<JointForce> {
-    if simulation.system().constraints.len() > MAX_FORCES {
+    if !tells_forces(simulation) {
         return Vec::new();
     }
     let multipliers = simulation.multipliers().into_iter();

@@ -16,6 +16,7 @@ impl Simulation {
     pub fn reset(&mut self) {
         let Mechanism { system, state, .. } = &mut self.mechanism;
         state.set_revolutions(system.start_angles());
+        self.notes.begin_at_start();
         let start = std::mem::take(&mut self.start);
         self.begin(0.0, &start);
         self.start = start;
@@ -23,11 +24,12 @@ impl Simulation {
 
     /// Goes on from where another run of the same scene stands, whose numbers may differ: bodies keep their places
     /// and velocities as far as the constraints allow. Counters and energies are counted from here. Returns what was
-    /// corrected, in words.
+    /// corrected, in words; the run's notes tell that in place of what was corrected at its start.
     ///
     /// # Errors
     ///
-    /// [`EngineError::Constraint`] if no state near that of the other run satisfies the constraints of this one.
+    /// [`EngineError::Constraint`] if no state near that of the other run satisfies the constraints of this one, and
+    /// [`EngineError::TimeOutside`] if this one ends before.
     ///
     /// ```
     /// use triad_engine::prelude::*;
@@ -41,7 +43,10 @@ impl Simulation {
     /// # Ok::<(), EngineError>(())
     /// ```
     pub fn continue_from(&mut self, other: &Self) -> Result<Vec<String>, EngineError> {
-        let time = other.time().min(self.duration());
+        let (time, to) = (other.time(), self.duration());
+        if time > to {
+            return Err(EngineError::TimeOutside { time, from: 0.0, to });
+        }
         let frames = other.frame().bodies;
         let n = self.system().coordinates;
         let mut y = vec![0.0; 2 * n];
@@ -56,11 +61,14 @@ impl Simulation {
         let notes = self.mechanism.assemble_at(time, &mut y)?;
         self.mechanism.state.commit_revolutions();
         self.begin(time, &y);
+        let told =
+            |note: &String| format!("at t = {time:.3} s, when the numbers of the run were changed: {note}");
+        self.notes.begin_elsewhere(notes.iter().map(told).collect());
         Ok(notes)
     }
 
     /// Goes on from a state that was kept of a run of the same scene, at its time; false, and nothing is changed, if it cannot be
-    /// one of this scene. Counters and energies are counted from here.
+    /// one of this scene. Counters, energies and errors are counted from here, and what was corrected at the start is told no more.
     ///
     /// ```
     /// use triad_engine::prelude::*;
@@ -82,6 +90,7 @@ impl Simulation {
         }
         self.mechanism.state.set_revolutions(angles.iter().copied());
         self.begin(*time, state);
+        self.notes.begin_elsewhere(Vec::new());
         true
     }
 

@@ -2,6 +2,7 @@
 
 use super::companion::Companion;
 use super::examiner::Examiner;
+use super::notes::Notes;
 use super::seen::Seen;
 use super::singularity::SingularityMonitor;
 use super::state_view::CachedState;
@@ -77,7 +78,7 @@ impl Simulation {
         mut mechanism: Mechanism,
         start: Vec<f64>,
         rank: Rank,
-        mut notes: Vec<String>,
+        mut notes: Notes,
     ) -> Result<Self, EngineError> {
         mechanism.set_state(0.0, &start);
         // From where the joints were closed, not from what was given of them: the first step may be half a turn from there.
@@ -88,7 +89,7 @@ impl Simulation {
         let (kind, reason) = integrate::choose(&mut mechanism, &start);
         let asked = mechanism.system.model.settings.integrator;
         if asked != IntegratorKind::Auto && asked != kind {
-            notes.push(format!("runs by {kind}: {reason}"));
+            notes.add(format!("runs by {kind}: {reason}"));
         }
         mechanism.elimination.counters = Counters::default();
         let companion = Companion::start(kind, &mechanism, 0.0, &start);
@@ -133,11 +134,12 @@ impl Simulation {
 pub(crate) fn assemble(
     model: Model,
     still: &dyn Fn() -> bool,
-) -> Result<(Mechanism, Vec<f64>, Vec<String>), ConstraintError> {
+) -> Result<(Mechanism, Vec<f64>, Notes), ConstraintError> {
+    let of_scene = model.notes.len();
     let (mut mechanism, mut start) = start::mechanism_if(model, still);
     let mut notes = mechanism.system.model.notes.clone();
     notes.extend(mechanism.assemble_if(&mut start, still)?);
-    Ok((mechanism, start, notes))
+    Ok((mechanism, start, Notes::new(notes, of_scene)))
 }
 
 /// Finds the rank of a mechanism near its start, as long as that is wanted, and hands the dependent rows to its elimination; counters are
@@ -145,7 +147,7 @@ pub(crate) fn assemble(
 pub(crate) fn analyze_rank(
     mechanism: &mut Mechanism,
     start: &[f64],
-    notes: &mut Vec<String>,
+    notes: &mut Notes,
     still: &dyn Fn() -> bool,
 ) -> Result<Rank, ConstraintError> {
     let Mechanism { system, state, elimination, .. } = mechanism;
@@ -153,14 +155,14 @@ pub(crate) fn analyze_rank(
     let rank = rank::analyze_if(system, state, q, still);
     rank::check_masses(system, state, elimination, q)?;
     if rank.at_start < rank.rank {
-        notes.push(format!(
+        notes.add_of_start(format!(
             "the start is a singular position: {} rows lose their hold there, and several branches of motion may \
              begin; without a velocity that chooses one, which of them is followed is not determined",
             rank.rank - rank.at_start
         ));
     }
     if !(rank.dependent.is_empty() || system.frictions.is_empty()) {
-        notes.push(
+        notes.add(
             "joints hold more than once what they hold: friction with a coefficient follows the smallest reactions that do, which \
              need not be those of a real mechanism"
                 .to_owned(),

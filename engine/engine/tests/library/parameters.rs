@@ -129,3 +129,37 @@ fn a_state_that_no_longer_fits_is_refused() {
         Err(EngineError::Constraint { error, .. }) if matches!(*error, ConstraintError::StartTooFar { .. })
     ));
 }
+
+#[test]
+fn a_run_that_goes_on_elsewhere_tells_what_was_corrected_there() {
+    let mut value = serde_json::to_value(catalogue::scene("crank-rocker").unwrap()).unwrap();
+    value["bodies"][0]["inertia"] =
+        serde_json::json!({ "tensor": [[0.2, 0.05, 0], [0.05, 0.2, 0], [0, 0, 0.3]] });
+    let scene = scene(&value.to_string());
+    let faster = scene.changed([], [("/drivers/0/motion/rate", &5.4.into())]).unwrap();
+    let mut before = Simulation::new(&scene).unwrap();
+    before.advance_to(1.0).unwrap();
+    let mut after = Simulation::new(&faster).unwrap();
+    let at_start = after.notes().to_vec();
+    assert!(at_start[0].contains("principal moments"), "{at_start:?}");
+    assert!(at_start.iter().any(|note| note.contains("are given for the start")), "{at_start:?}");
+    let corrected = after.continue_from(&before).unwrap();
+    assert!(corrected[0].contains("bodies were moved by up to "), "{corrected:?}");
+    let told = corrected
+        .iter()
+        .map(|note| format!("at t = 1.000 s, when the numbers of the run were changed: {note}"));
+    let expected: Vec<String> = at_start[..1].iter().cloned().chain(told).collect();
+    assert_eq!(after.notes(), expected);
+    after.reset();
+    assert_eq!(after.notes(), at_start);
+}
+
+#[test]
+fn a_run_does_not_go_on_in_one_that_ends_before() {
+    let mut before = Simulation::new(&pendulum()).unwrap();
+    before.advance_to(1.5).unwrap();
+    let mut after = Simulation::new(&pendulum().duration(1.0)).unwrap();
+    let error = after.continue_from(&before).unwrap_err();
+    assert!(matches!(error, EngineError::TimeOutside { time: 1.5, to: 1.0, .. }), "{error}");
+    assert_eq!(after.time(), 0.0);
+}

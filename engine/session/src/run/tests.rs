@@ -96,3 +96,137 @@ fn errors_that_begin_anew_with_other_numbers_say_so() {
     run.reset();
     assert!(!noted(&run));
 }
+
+fn told(run: &Run) -> SessionState {
+    run.state(Streamed::default(), String::new)
+}
+
+fn change(run: &mut Run, change: serde_json::Value) -> Result<(), Refusal> {
+    run.change(&serde_json::from_value(change).expect("a change"), 0.0)
+}
+
+/// A run as it is taken up again from what was kept of it.
+fn taken_up(run: &Run) -> Run {
+    let kept = serde_json::to_string(&run.kept()).expect("JSON");
+    Run::resume(serde_json::from_str(&kept).expect("what was kept"), 1 << 20, 0.0)
+        .expect("runs")
+        .expect("of this program")
+}
+
+#[test]
+fn a_run_that_is_taken_up_again_keeps_its_errors_its_drag_and_what_was_said() {
+    let mut scene = catalogue::scene("spatial-double-pendulum").expect("a scene").duration(5.0);
+    scene.simulation.tolerance = 1e-4;
+    let source = SceneSource::Scene("it".into());
+    let mut run = Run::start("one".into(), scene, &SceneChange::default(), source, 1 << 20).expect("runs");
+    while let Ok(true) = run.advance(1.0) {}
+    let drag =
+        serde_json::json!({ "body": told(&run).bodies[0].name, "to": [0.0, 0.0, 0.0], "stiffness": 5.0 });
+    run.drag(serde_json::from_value(drag).expect("a drag"), 0.0).expect("goes on");
+    while let Ok(true) = run.advance(2.5) {}
+    let before = told(&run);
+    let position = |state: &SessionState| state.accuracy.as_ref().map(|accuracy| accuracy.position);
+    assert!(position(&before) > Some(1e-6), "{:?}", before.accuracy);
+    let mut again = taken_up(&run);
+    let after = told(&again);
+    assert_eq!((&after.pull, after.time, &after.q), (&before.pull, before.time, &before.q));
+    assert!(after.pull.is_some());
+    assert_eq!(after.energy, before.energy);
+    assert!((after.energy_drift - before.energy_drift).abs() < 1e-12);
+    assert!(position(&after) >= position(&before));
+    let added = |notes: &[String]| {
+        let known = |note: &String| before.notes.contains(note);
+        assert_eq!(notes.iter().filter(|note| known(note)).count(), before.notes.len(), "{notes:?}");
+        let new: Vec<String> = notes.iter().filter(|note| !known(note)).cloned().collect();
+        new
+    };
+    let new = added(&after.notes);
+    assert!(new.len() == 1 && new[0].starts_with("the run was taken up again at t = 2.500 s"), "{new:?}");
+    // Twice is as once, and what comes then is added.
+    while let Ok(true) = again.advance(2.6) {}
+    let then = position(&told(&again));
+    assert!(then > position(&after));
+    let twice = told(&taken_up(&taken_up(&again)));
+    assert!(position(&twice) >= then && added(&twice.notes).len() == 1, "{:?}", twice.notes);
+    again.reset();
+    let anew = told(&again).notes;
+    assert!(!anew.iter().any(|note| note.contains("taken up") || note.contains("count from")), "{anew:?}");
+}
+
+#[test]
+fn nothing_is_told_of_errors_before_a_run_was_kept_by_a_program_that_did_not_keep_them() {
+    let mut run = pendulum();
+    while let Ok(true) = run.advance(0.5) {}
+    let mut kept = serde_json::to_value(run.kept()).expect("JSON");
+    for key in ["since", "drag"] {
+        kept.as_object_mut().expect("an object").remove(key).expect("is kept");
+    }
+    let again = Run::resume(serde_json::from_value(kept).expect("what was kept"), 1 << 20, 0.0);
+    let state = told(&again.expect("runs").expect("of this program"));
+    assert_eq!((state.accuracy, state.error_unknown_from), (None, Some(state.time)));
+}
+
+#[test]
+fn a_run_does_not_go_on_in_a_scene_that_ends_before() {
+    let mut run = pendulum();
+    while let Ok(true) = run.advance(1.5) {}
+    let before = told(&run);
+    let shorter =
+        |end: f64| serde_json::json!({ "places": { "/simulation/duration": end }, "then": "continue" });
+    let refused = change(&mut run, shorter(1.0)).expect_err("it is later than that");
+    assert_eq!(refused.code(), "cannot-continue");
+    assert!(refused.to_string().contains("outside the run, which goes from 0 s to 1 s"), "{refused}");
+    let after = told(&run);
+    assert_eq!((after.time, after.q, after.changes), (1.5, before.q, 0));
+    change(&mut run, shorter(1.5)).expect("it stands at the end");
+    assert!(told(&run).finished);
+}
+
+#[test]
+fn a_run_that_goes_on_tells_what_its_change_moved_and_not_what_the_start_would_have_needed() {
+    let scene = catalogue::scene("crank-rocker").expect("a scene");
+    let source = SceneSource::Builtin("crank-rocker".into());
+    let mut run = Run::start("one".into(), scene, &SceneChange::default(), source, 1 << 20).expect("runs");
+    while let Ok(true) = run.advance(1.0) {}
+    let rate =
+        |rate: f64| serde_json::json!({ "places": { "/drivers/0/motion/rate": rate }, "then": "continue" });
+    change(&mut run, rate(5.4)).expect("goes on");
+    let notes = told(&run).notes;
+    assert!(!notes.iter().any(|note| note.contains("given for the start")), "{notes:?}");
+    let moved = notes.iter().filter(|note| note.contains("bodies were moved by up to")).collect::<Vec<_>>();
+    assert!(matches!(moved[..], [note] if note.starts_with("at t = 1.000 s, when ")), "{notes:?}");
+    // Numbers that move nothing.
+    change(&mut run, serde_json::json!({ "places": { "/bodies/0/mass": 2.0 }, "then": "continue" }))
+        .expect("goes on");
+    let notes = told(&run).notes;
+    assert!(!notes.iter().any(|note| note.contains("were moved")), "{notes:?}");
+    // From the start on, its start counts.
+    change(&mut run, rate(5.4)).expect("goes on");
+    run.reset();
+    assert!(told(&run).notes.iter().any(|note| note.contains("given for the start")));
+}
+
+#[test]
+fn seconds_that_are_added_up_end_at_the_end_and_at_output_times() {
+    for (every, duration) in [(0.01, 1.0), (0.03, 1.0), (0.1, 1.0)] {
+        let mut scene = catalogue::scene("simple-pendulum").expect("a scene").duration(duration);
+        scene.simulation.every = every;
+        let source = SceneSource::Scene("it".into());
+        let mut run =
+            Run::start("one".into(), scene, &SceneChange::default(), source, 1 << 20).expect("runs");
+        for _ in 0..10 {
+            let target = run.ahead(0.1);
+            while let Ok(true) = run.advance(target) {}
+        }
+        let state = told(&run);
+        assert_eq!((state.time, state.finished), (duration, true), "{every}");
+        let outputs = (duration / every - 1e-6).ceil();
+        assert!(state.frames as f64 <= outputs + 11.0, "{} frames every {every} s", state.frames);
+    }
+    // Few seconds are no rounding.
+    let mut run = pendulum();
+    while let Ok(true) = run.advance(0.3) {}
+    let target = run.ahead(1e-9);
+    while let Ok(true) = run.advance(target) {}
+    assert!(run.time() > 0.3);
+}

@@ -39,6 +39,12 @@ export const toldOfRuns: Record<string, string> = {
     "bei t = {time} s lassen sich keine unabhängigen Koordinaten wählen: Eine singuläre Lage lässt offen, was sich frei bewegt",
   "estimated errors count from t = {time} s on, when the numbers of the run were changed":
     "geschätzte Fehler zählen ab t = {time} s, als die Zahlen des Laufs geändert wurden",
+  "the run was taken up again at t = {time} s: estimated errors are those of then with what has come since; how those of then grow is not known":
+    "der Lauf wurde bei t = {time} s wieder aufgenommen: Geschätzte Fehler sind die von damals mit dem, was seither dazukam; wie die von damals wachsen, ist nicht bekannt",
+  "at t = {time} s, when the numbers of the run were changed: {reason}":
+    "bei t = {time} s, als die Zahlen des Laufs geändert wurden: {reason}",
+  "the run cannot go on with these numbers: {reason}":
+    "der Lauf kann mit diesen Zahlen nicht weitergehen: {reason}",
   "the run stops at t = {time} s: its {steps} steps are used up":
     "der Lauf endet bei t = {time} s: Seine {steps} Schritte sind verbraucht",
   "t = {time} s is outside the run, which goes from {from} s to {to} s":
