@@ -74,6 +74,7 @@ fn runs_tell_what_was_read() {
         "run tests/data/scenes/islands.json --explain",
         "run tests/data/scenes/events.json",
         "run n-four-bar:1 --until 3 --treatment penalty --integrator dop853",
+        "run free-body-flip --until 1 --tolerance 1e-5",
         "run simple-pendulum --until 1 --most-steps 2",
         "run simple-pendulm",
     ]);

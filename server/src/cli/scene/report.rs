@@ -1,5 +1,7 @@
 //! What `triad run` tells when it is done.
 
+use std::fmt::Write as _;
+
 use serde_json::json;
 use triad_engine::VERSION;
 use triad_engine::run::{EventOccurrence, ReactionErrors, Simulation, SkippedItem, Summary};
@@ -14,6 +16,8 @@ use crate::problem::Problem;
 
 /// Most joints that are named at singular positions.
 const NAMES: usize = 8;
+/// The error of directions is told where it means so many times that of positions over the length of the mechanism.
+const TURNING: f64 = 10.0;
 
 /// What is known of a run besides its own state.
 pub(super) struct Found<'a> {
@@ -63,9 +67,9 @@ pub(super) fn report(
         return;
     }
     print_line(&format!("{}: {} s of {} s", scene.name, summary.time, scene.simulation.duration));
-    // Without a step the figures would be those of the start.
-    if stopped.is_none() || summary.steps > 0 {
-        print_line(&accuracy(&summary, reactions));
+    // Without a step that holds the figures would be those of the start.
+    if stopped.is_none() || summary.time > 0.0 {
+        print_line(&accuracy(&summary, reactions, simulation.system().length));
         for line in figures(&summary, verified) {
             print_line(&line);
         }
@@ -109,7 +113,7 @@ fn explanation(left: &SkippedItem) -> String {
 }
 
 /// What the numbers at the end are worth.
-fn accuracy(s: &Summary, reactions: Option<ReactionErrors>) -> String {
+fn accuracy(s: &Summary, reactions: Option<ReactionErrors>, length: f64) -> String {
     let Some(error) = s.error else {
         let why = match s.error_unknown_from {
             Some(time) => format!("from t = {time:.6} s on unknown"),
@@ -117,10 +121,24 @@ fn accuracy(s: &Summary, reactions: Option<ReactionErrors>) -> String {
         };
         return format!("  error                  {why}");
     };
-    let mut line = format!(
-        "  error                  positions right to about {:.0e} m at the end, velocities to {:.0e} m/s",
-        error.position, error.velocity
-    );
+    // No number is exact.
+    let position = if error.position == 0.0 { f64::EPSILON * length } else { error.position };
+    let mut line = format!("  error                  positions right to about {position:.0e} m at the end");
+    let turning = |turn: f64, way: f64| turn * length > TURNING * way;
+    for (what, off, unit, told) in [
+        ("directions", error.turn, "rad", turning(error.turn, position)),
+        ("velocities", error.velocity, "m/s", error.velocity > 0.0),
+        (
+            "angular velocities",
+            error.angular_velocity,
+            "rad/s",
+            turning(error.angular_velocity, error.velocity),
+        ),
+    ] {
+        if told {
+            let _ = write!(line, ", {what} to {off:.0e} {unit}");
+        }
+    }
     if let Some(reactions) = reactions.filter(|reactions| reactions.largest_force > 0.0) {
         line.extend([", reactions to ", &format!("{:.0e}", reactions.relative()), " of the largest"]);
     }
