@@ -42,7 +42,7 @@ pub fn choose(mechanism: &mut Mechanism, y: &[f64]) -> (IntegratorKind, String) 
     } else if let Some(load) = mechanism.system.model.custom_loads.first() {
         Some(format!("load \"{}\" is a function without a power series", load.name))
     } else if method == ConstraintMethod::Projection {
-        settings.step.map(|_| "its steps have no fixed size".to_owned())
+        settings.step.map(|_| "a series takes no steps of a size that is given".to_owned())
     } else {
         Some(format!("{method} belongs to Runge-Kutta methods"))
     };

@@ -99,6 +99,11 @@ impl Integrator {
         (sum, mechanism.projections + projections)
     }
 
+    /// What there is to say of the size of its steps, in a sentence.
+    pub fn told_of_steps(&self) -> Option<String> {
+        self.stepper.told_of_steps()
+    }
+
     /// Takes the last step of another run of the same mechanism and method beside it. False where that is not possible, or would hide what
     /// that one steps over.
     pub fn follow(&mut self, mechanism: &mut Mechanism, other: &Self) -> bool {

@@ -52,6 +52,8 @@ const TRIAL_STEPS: usize = 100;
 /// Part of the longest step of the trial below which the trial is coming to a halt, and says no more about the motion before
 /// that.
 const HALTING: f64 = 1e-4;
+/// A step after which the next one is so many times longer still grows from the first guess, whatever the tolerance.
+const GROWING: f64 = 2.0;
 /// The step size in steps of the trial.
 const PART_OF_TRIAL: f64 = 0.5;
 /// Steps of a run whose trial came to no second step.
@@ -63,6 +65,8 @@ pub struct Rattle {
     last: StepRecord,
     /// Size of the steps.
     h: f64,
+    /// What there is to say of it.
+    told: Option<String>,
     position: Vec<NaturalCoordinates>,
     velocity: Vec<NaturalCoordinates>,
     /// Both at the start of the step.
@@ -94,9 +98,22 @@ impl Rattle {
         let settings = &mechanism.system.model.settings;
         let (tolerance, end) = (settings.tolerance, settings.duration);
         let left = (end - t).max(f64::MIN_POSITIVE);
-        let h = h.unwrap_or_else(|| PART_OF_TRIAL * trial_step(mechanism, t, y, tolerance, end));
+        let trial = if h.is_none() { trial(mechanism, t, y, tolerance, end) } else { Trial::default() };
+        let asked = h.unwrap_or(PART_OF_TRIAL * trial.step);
         // Steps of one size that end at the end.
-        let h = left / (left / h).ceil().max(1.0);
+        let size = left / (left / asked).ceil().max(1.0);
+        let told = if h.is_some() && size < asked * (1.0 - LAST_STEP) {
+            Some(format!(
+                "steps of {size} s in place of {asked} s: those of rattle have one size and end with the run"
+            ))
+        } else {
+            trial.as_it_begins.then(|| {
+                format!(
+                    "steps of {size:.3e} s: the trial that finds their size begins with them, and the tolerance, which allows longer \
+                     ones, changes nothing; \"step\" gives another size"
+                )
+            })
+        };
         let system = &mechanism.system;
         let bodies = system.bodies.len();
         let zero = vec![NaturalCoordinates::default(); bodies];
@@ -107,7 +124,8 @@ impl Rattle {
         let rates = [vec![0.0; y.len()], vec![0.0; y.len()]];
         let mut rattle = Self {
             last: StepRecord::new(t, y),
-            h,
+            h: size,
+            told,
             position,
             velocity,
             kept: (zero.clone(), zero.clone()),
@@ -289,16 +307,29 @@ impl Stepper for Rattle {
         Some(self.h)
     }
 
+    fn told_of_steps(&self) -> Option<String> {
+        self.told.clone()
+    }
+
     fn boxed(&self) -> Box<dyn Stepper> {
         Box::new(self.clone())
     }
 }
 
-/// Smallest step of a trial run from the start.
-fn trial_step(mechanism: &mut Mechanism, t: f64, y: &[f64], tolerance: f64, end: f64) -> f64 {
+/// What a trial run from the start says of steps.
+#[derive(Clone, Copy, Debug, Default)]
+struct Trial {
+    /// The smallest, s.
+    step: f64,
+    /// Whether it is the first that counts, after which the tolerance allows longer ones at once.
+    as_it_begins: bool,
+}
+
+fn trial(mechanism: &mut Mechanism, t: f64, y: &[f64], tolerance: f64, end: f64) -> Trial {
     let mut trial = mechanism.clone();
     let mut explicit = Explicit::new(&DOP853, &mut trial, t, y, tolerance);
-    let (mut smallest, mut largest) = (f64::INFINITY, 0.0f64);
+    let mut steps = Vec::with_capacity(TRIAL_STEPS);
+    let mut largest = 0.0f64;
     for step in 0..TRIAL_STEPS {
         if explicit.last().t >= end || explicit.step(&mut trial, end).is_err() {
             break;
@@ -310,10 +341,17 @@ fn trial_step(mechanism: &mut Mechanism, t: f64, y: &[f64], tolerance: f64, end:
             if h < HALTING * largest {
                 break;
             }
-            smallest = smallest.min(h);
+            steps.push(h);
         }
     }
-    if smallest.is_finite() { smallest } else { (end - t) / STEPS_WITHOUT_TRIAL }
+    let smallest = steps.iter().copied().fold(f64::INFINITY, f64::min);
+    match steps[..] {
+        [] => Trial { step: (end - t) / STEPS_WITHOUT_TRIAL, as_it_begins: false },
+        [first, second, ..] => {
+            Trial { step: smallest, as_it_begins: smallest == first && second > GROWING * first }
+        }
+        [_] => Trial { step: smallest, as_it_begins: false },
+    }
 }
 
 /// a + factor b.

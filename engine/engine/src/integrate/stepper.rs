@@ -113,6 +113,11 @@ pub trait Stepper: Debug + Send + Sync {
         None
     }
 
+    /// What there is to say of the size of its steps, in a sentence.
+    fn told_of_steps(&self) -> Option<String> {
+        None
+    }
+
     /// Whether a given function that begins to change shows by itself.
     fn sees_ahead(&self) -> bool {
         false

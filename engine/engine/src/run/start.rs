@@ -94,6 +94,9 @@ impl Simulation {
         mechanism.elimination.counters = Counters::default();
         let companion = Companion::start(kind, &mechanism, 0.0, &start);
         let integrator = Integrator::start(kind, &mut mechanism, 0.0, &start);
+        if let Some(note) = integrator.told_of_steps() {
+            notes.add(note);
+        }
         let singularities = SingularityMonitor::new(&mut mechanism, &rank);
         let conservative = mechanism.system.is_conservative();
         let interpolates = !conservative || !mechanism.system.event_functions.is_empty();

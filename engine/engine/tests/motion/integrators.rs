@@ -132,6 +132,31 @@ fn rattle_keeps_momentum_and_its_energy_error_has_no_slope() {
 }
 
 #[test]
+fn rattle_says_where_its_steps_are_not_those_that_were_asked_for() {
+    let notes = |name: &str, step: Option<f64>, tolerance: f64| {
+        let mut scene = treated(scene(name, 1.0), IntegratorKind::Rattle, ConstraintMethod::Projection);
+        (scene.simulation.step, scene.simulation.tolerance) = (step, tolerance);
+        let mut run = Simulation::new(&scene).unwrap();
+        let told: Vec<String> =
+            run.notes().iter().filter(|note| note.starts_with("steps of ")).cloned().collect();
+        run.step().unwrap();
+        (told, run.summary().step_size)
+    };
+    let (told, size) = notes("simple-pendulum", Some(0.3), 1e-9);
+    assert_eq!((told.len(), size), (1, 0.25));
+    assert!(told[0].starts_with("steps of 0.25 s in place of 0.3 s"), "{told:?}");
+    assert!(notes("simple-pendulum", Some(0.1), 1e-9).0.is_empty());
+    // The top's trial begins with steps that no tolerance needs.
+    let (told, loose) = notes("heavy-top", None, 1e-3);
+    assert!(told.len() == 1 && told[0].contains("changes nothing"), "{told:?}");
+    assert_eq!(notes("heavy-top", None, 1e-9).1, loose);
+    // Where the tolerance decides, nothing is said.
+    let (told, loose) = notes("simple-pendulum", None, 1e-3);
+    assert!(told.is_empty(), "{told:?}");
+    assert!(notes("simple-pendulum", None, 1e-11).1 < loose);
+}
+
+#[test]
 fn rattle_is_symmetric_in_time() {
     for name in ["spatial-chain:3", "spatial-double-pendulum", "n-four-bar:2"] {
         // The loop only as far as its first singular position.

@@ -45,6 +45,10 @@ export const toldOfRuns: Record<string, string> = {
     "bei t = {time} s, als die Zahlen des Laufs geändert wurden: {reason}",
   "the run cannot go on with these numbers: {reason}":
     "der Lauf kann mit diesen Zahlen nicht weitergehen: {reason}",
+  "steps of {size} s in place of {asked} s: those of rattle have one size and end with the run":
+    "Schritte von {size} s statt {asked} s: Die von rattle haben eine einzige Länge und enden mit dem Lauf",
+  'steps of {size} s: the trial that finds their size begins with them, and the tolerance, which allows longer ones, changes nothing; "step" gives another size':
+    "Schritte von {size} s: Der Probelauf, der ihre Länge bestimmt, beginnt damit, und die Toleranz, die längere erlaubt, ändert nichts; „step“ gibt eine andere Länge",
   "the run stops at t = {time} s: its {steps} steps are used up":
     "der Lauf endet bei t = {time} s: Seine {steps} Schritte sind verbraucht",
   "t = {time} s is outside the run, which goes from {from} s to {to} s":
