@@ -363,6 +363,20 @@ fn what_is_asked_for_is_done_refused_or_told_to_change_nothing() {
 }
 
 #[test]
+fn numbers_of_options_are_refused_as_what_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("a.csv").to_string_lossy().into_owned();
+    for (option, number, code, words) in [
+        ("--every", "0", 3, "/simulation/every: 0 is not between"),
+        ("--most-seconds", "-1", 2, "it must be above 0"),
+        ("--step", "100", 1, "Take shorter steps than those of 100 s"),
+    ] {
+        let (found, text) = said(&["run", "simple-pendulum", option, number, "--out", &table]);
+        assert!(found == Some(code) && text.contains(words), "{option} {number}: {found:?}\n{text}");
+    }
+}
+
+#[test]
 fn slow_decays_are_printed_with_their_digits_and_shapes_with_their_scale() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("slow.json").to_string_lossy().into_owned();

@@ -39,7 +39,7 @@ use nalgebra::Vector3;
 use reader::ModelReader;
 use std::collections::HashMap;
 
-/// Greatest length, velocity or angular velocity that a scene may state, SI units: galaxies are within 1e22 m. With
+/// Greatest length, velocity, angular velocity or gravity that a scene may state, SI units: galaxies are within 1e22 m. With
 /// [`MAX_MASS`] even the square of a moment of inertia stays far below the largest number.
 const MAX_LENGTH: f64 = 1e30;
 /// Greatest and least mass of a body, kg: electrons have 1e-30, all that is to be seen of the universe 1e53.
@@ -106,7 +106,7 @@ impl Model {
     }
 
     fn checked(scene: &Scene, written: Option<&WrittenScene>) -> Result<Self, ModelError> {
-        finite(&scene.gravity, "/gravity")?;
+        within(&scene.gravity, MAX_LENGTH, "/gravity")?;
         check_settings(&scene.simulation)?;
         if scene.bodies.is_empty() {
             return Err(ModelError::NoBodies);

@@ -250,6 +250,11 @@ impl EngineError {
 
     /// Why the motion cannot continue from the last good state, if that was found.
     pub fn cause(&self) -> Option<&Cause> {
+        self.last_good()?.cause.as_deref()
+    }
+
+    /// What is known of the last good state.
+    fn last_good(&self) -> Option<&LastGood> {
         match self {
             Self::StepTooSmall { last, .. }
             | Self::Diverged { last, .. }
@@ -258,16 +263,37 @@ impl EngineError {
             | Self::Stalled { last, .. }
             | Self::Undetermined { last, .. }
             | Self::Constraint { last: Some(last), .. }
-            | Self::StepLimit { last, .. } => last.cause.as_deref(),
+            | Self::StepLimit { last, .. } => Some(last),
             _ => None,
+        }
+    }
+
+    /// What to try where steps of one size, s, are the likeliest reason.
+    fn hint_of_steps(&self, size: f64) -> Option<String> {
+        let lost =
+            matches!(self, Self::Constraint { error, .. } if matches!(**error, ConstraintError::Lost { .. }));
+        match self {
+            Self::NoConvergence { .. } => Some(format!(
+                "Take shorter steps than those of {size} s, or leave their size to the tolerance; through singular positions use \
+                 taylor or dop853 with projection."
+            )),
+            Self::Diverged { .. } => Some(too_long(size)),
+            _ => lost.then(|| too_long(size)),
         }
     }
 
     /// What to try.
     pub fn hint(&self) -> String {
-        if let Some(cause) = self.cause().filter(|_| !matches!(self, Self::Undetermined { .. })) {
+        let undetermined = matches!(self, Self::Undetermined { .. });
+        if let Some(cause) = self.cause().filter(|_| !undetermined) {
             return cause.hint().to_owned();
         }
+        let size = self.last_good().and_then(|last| last.size);
+        size.and_then(|size| self.hint_of_steps(size)).unwrap_or_else(|| self.remedy())
+    }
+
+    /// What to try where nothing is known but what went wrong.
+    fn remedy(&self) -> String {
         match self {
             Self::Scene(SceneError::TooLong { .. } | SceneError::TooMany { .. }) => {
                 "Split the mechanism, or leave out what does not move.".to_owned()
@@ -324,4 +350,9 @@ impl EngineError {
             Self::UnknownName { what, .. } => format!("Ask for a {what} by its name in the scene."),
         }
     }
+}
+
+/// What to try after steps of that size, s.
+fn too_long(size: f64) -> String {
+    format!("Take shorter steps than those of {size} s, or leave their size to the tolerance.")
 }

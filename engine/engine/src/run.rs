@@ -385,7 +385,7 @@ impl Simulation {
                 self.current = known;
             }
         }
-        LastGood { steps, cause: self.cause().map(Box::new) }
+        LastGood { steps, size: self.model().settings.step, cause: self.cause().map(Box::new) }
     }
 
     /// Makes the state at a time within the last step, not after the end of the run, the current one.

@@ -22,6 +22,16 @@ pub(super) fn output(word: &str) -> Result<Output, String> {
     word.parse().map_err(|UnknownWord(words)| format!("no such output; there are {words}"))
 }
 
+/// A time that something may take, s.
+pub(super) fn seconds(word: &str) -> Result<f64, String> {
+    let seconds: f64 = word.parse().map_err(|_| "not a number of seconds".to_owned())?;
+    if seconds > 0.0 {
+        Ok(seconds)
+    } else {
+        Err("it must be above 0, as nothing is computed in no time".to_owned())
+    }
+}
+
 /// The words of `simulation.skip`, and one for all of them.
 pub(super) fn skip_words() -> Vec<&'static str> {
     triad_engine::scene::Skip::WORDS.into_iter().chain(["all"]).collect()

@@ -4,6 +4,10 @@
 const OUTPUTS: &str = "/simulation/outputs";
 /// What is wrong with a formula that can be read, as its reason begins.
 const NO_SERIES: &str = "its formula has no power series";
+/// What is wrong with a direction.
+pub(super) const NO_LENGTH: &str = "the vector has no length";
+/// What is wrong with a rod.
+pub(super) const COINCIDENT: &str = "its points coincide, and no length is given";
 
 /// A scene that cannot be: what, where, and what to try.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -241,18 +245,45 @@ impl ModelError {
                  a table instead."
                     .to_owned()
             }
-            Self::Geometry { pointer, .. } if !pointer.starts_with("/joints") => {
+            Self::Geometry { reason, .. } if reason == NO_LENGTH => {
+                "Give a vector that is not zero, such as [0, 0, 1]: its length does not matter.".to_owned()
+            }
+            Self::Geometry { pointer, reason, .. } if pointer.starts_with("/joints") => {
+                hint_of_joint(pointer, reason).to_owned()
+            }
+            Self::Geometry { .. } => {
                 "Compare the element with the JSON Schema of a scene; points and vectors of a body are in its own \
                  frame."
                     .to_owned()
             }
-            Self::Geometry { .. } => {
-                "Give points and axes either in the world at the start (point, axis, axes) or in the frames of both \
-                 bodies (point_i and point_j, axis_i and axis_j)."
-                    .to_owned()
-            }
         }
     }
+}
+
+/// What to try with the geometry of a joint.
+fn hint_of_joint(pointer: &str, reason: &str) -> &'static str {
+    if is_too_much(reason) {
+        "Leave it out, or choose a kind of joint that has it."
+    } else if pointer.ends_with("/pitch") {
+        "Give what body j advances in a whole turn, in m; a negative number for a left-handed thread."
+    } else if reason == COINCIDENT {
+        "Set the two points of the rod apart, or put a spherical joint in its place."
+    } else if of_place(pointer) {
+        "Give points and axes either in the world at the start (point, axis, axes) or in the frames of both bodies (point_i and point_j, \
+         axis_i and axis_j)."
+    } else {
+        "Compare the joint with the JSON Schema of a scene (`triad schema`)."
+    }
+}
+
+/// Whether a joint is refused for what its kind does not know.
+fn is_too_much(reason: &str) -> bool {
+    reason.starts_with("only ") || (reason.starts_with("a ") && reason.contains(" has no "))
+}
+
+/// Whether it is about the points or axes of a joint.
+fn of_place(pointer: &str) -> bool {
+    pointer.split('/').nth(3).is_some_and(|key| key.starts_with("point") || key.starts_with("ax"))
 }
 
 /// A number, by its power of ten where it would fill the line.

@@ -1,5 +1,6 @@
 //! A joint with its geometry in the principal frames of its two bodies.
 
+use super::error::COINCIDENT;
 use super::gear::wheels;
 use super::joint_keys::{AxisKeys, KnownKeys, OwnKeys, PointKeys, refuse_strangers};
 use super::reader::ModelReader;
@@ -11,6 +12,9 @@ use triad_linalg::orthonormal_basis;
 /// Greatest difference of |component| from 1 at which a unit axis lies along a director: rounding of an axis that was turned
 /// into the principal frame.
 const ALONG: f64 = 1e-9;
+/// Least and greatest length of a rod, m.
+const MIN_ROD: f64 = 1e-9;
+const MAX_ROD: f64 = 1e9;
 
 /// The director (0, 1, 2 for u, v, w) that a local unit axis lies along, and its sign.
 pub fn director_along(axis: &Vector3<f64>) -> Option<(usize, f64)> {
@@ -243,9 +247,17 @@ fn rod_length(
     bodies: [BodyRef; 2],
     points: [Vector3<f64>; 2],
 ) -> Result<f64, ModelError> {
+    if let Some(length) = joint.length {
+        return reader.number("length", length, MIN_ROD, MAX_ROD);
+    }
     let ends = [0, 1].map(|side| reader.point_to_world(bodies[side], &points[side]));
-    let length = joint.length.unwrap_or_else(|| (ends[1] - ends[0]).norm());
-    reader.number("length", length, 1e-9, 1e9)
+    let length = (ends[1] - ends[0]).norm();
+    let key = if joint.points.is_some() { "points" } else { "point_i" };
+    if length < MIN_ROD {
+        Err(reader.wrong(key, COINCIDENT))
+    } else {
+        reader.number(key, length, MIN_ROD, MAX_ROD)
+    }
 }
 
 /// How the axis of a revolute joint is written: shared where the joint or all of its bodies ask for it. What the joint asks

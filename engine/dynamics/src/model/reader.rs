@@ -1,5 +1,6 @@
 //! Resolving names, points and vectors of the elements of a scene.
 
+use super::error::NO_LENGTH;
 use super::output::{WITH_ANGLE, WITH_SLIDE};
 use super::{BodyRef, MAX_LENGTH, ModelBody, ModelError, ModelJoint, finite, within};
 use crate::model::motion::{Curve, VectorCurve};
@@ -131,9 +132,7 @@ impl ModelReader<'_> {
     ///
     /// [`ModelError`]: a number that is not finite, or a vector without length.
     pub fn unit(&self, key: &str, value: Triple) -> Result<Vector3<f64>, ModelError> {
-        self.vector(key, value)?
-            .try_normalize(1e-12)
-            .ok_or_else(|| self.wrong(key, "the vector has no length"))
+        self.vector(key, value)?.try_normalize(1e-12).ok_or_else(|| self.wrong(key, NO_LENGTH))
     }
 
     /// A finite number in a range.

@@ -8,6 +8,8 @@ use triad_dynamics::constraints::quoted;
 pub struct LastGood {
     /// Accepted steps until then.
     pub steps: u64,
+    /// Their size, s, where the scene gives it.
+    pub size: Option<f64>,
     /// Why the motion cannot continue from there, if that was found.
     pub cause: Option<Box<Cause>>,
 }

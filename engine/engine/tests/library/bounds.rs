@@ -42,6 +42,7 @@ fn what_arithmetic_does_not_carry_is_refused_with_its_place_and_bounds() {
         ("/bodies/0/angular_velocity", json!([0, 0, 1e31]), "1e30"),
         ("/bodies/0/center_of_mass", json!([0, 0, 1e31]), "1e30"),
         ("/joints/0/point", json!([1e31, 0, 0]), "1e30"),
+        ("/gravity", json!([0, -1e31, 0]), "1e30"),
     ] {
         let mut scene = bars(1.0, 1.0);
         let key = pointer.rsplit_once('/').unwrap();

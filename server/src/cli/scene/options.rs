@@ -48,7 +48,7 @@ pub(in crate::cli) struct Run {
     #[arg(long, value_name = "N")]
     pub(super) most_steps: Option<u64>,
     /// Stop after so many seconds of computing; what was reached is kept.
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = choice::seconds)]
     pub(super) most_seconds: Option<f64>,
     /// Write a table: CSV (`-` for standard output), or Arrow (Feather) if the file ends in .arrow or .feather.
     #[arg(long, value_name = "FILE.csv")]
@@ -63,8 +63,8 @@ pub(in crate::cli) struct Run {
     /// Draw the mechanism as an SVG that moves by itself; `-` for standard output, here and wherever a text is written.
     #[arg(long, value_name = "FILE.svg")]
     pub(super) svg: Option<PathBuf>,
-    /// Write a page that plays the run by itself, without a server and without a network: some 300 kB, more for
-    /// hundreds of bodies.
+    /// Write a page that plays the run by itself, without a server and without a network: 60 kB for a
+    /// short one to some 300 kB, more for hundreds of bodies.
     #[arg(long, value_name = "FILE.html")]
     pub(super) html: Option<PathBuf>,
     /// Show the run in a native rerun viewer that listens at this address.

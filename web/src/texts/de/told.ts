@@ -138,6 +138,10 @@ export const told: Record<string, string> = {
   "a screw needs a pitch": "eine Schraube braucht eine Steigung",
   "only a screw has a pitch": "nur eine Schraube hat eine Steigung",
   "only a rod has a length": "nur ein Stab hat eine Länge",
+  "the pitch of a screw is a number other than zero":
+    "die Steigung einer Schraube ist eine Zahl, die nicht null ist",
+  "its points coincide, and no length is given":
+    "seine Punkte fallen zusammen, und eine Länge ist nicht gegeben",
   "it acts on the ground, which cannot move": "sie wirkt auf das Gestell, das sich nicht bewegen kann",
 
   "{pointer}: there is nothing; {other} has the keys {keys}":
@@ -183,6 +187,16 @@ export const told: Record<string, string> = {
     "Gib entweder u und v (zueinander senkrechte Einheitsvektoren), ein Einheitsquaternion [w, x, y, z] oder eine Achse und einen Winkel in Radiant.",
   "Give points and axes either in the world at the start (point, axis, axes) or in the frames of both bodies (point_i and point_j, axis_i and axis_j).":
     "Gib Punkte und Achsen entweder in der Welt am Anfang (point, axis, axes) oder in den Systemen beider Körper (point_i und point_j, axis_i und axis_j).",
+  "Give a vector that is not zero, such as [0, 0, 1]: its length does not matter.":
+    "Gib einen Vektor, der nicht null ist, etwa [0, 0, 1]: Auf seine Länge kommt es nicht an.",
+  "Leave it out, or choose a kind of joint that has it.":
+    "Lass das weg, oder wähl eine Art von Gelenk, die es hat.",
+  "Give what body j advances in a whole turn, in m; a negative number for a left-handed thread.":
+    "Gib an, wie weit Körper j in einer ganzen Umdrehung vorrückt, in m; eine negative Zahl für ein Linksgewinde.",
+  "Set the two points of the rod apart, or put a spherical joint in its place.":
+    "Rück die beiden Punkte des Stabs auseinander, oder setz ein Kugelgelenk an seine Stelle.",
+  "Compare the joint with the JSON Schema of a scene (`triad schema`).":
+    "Vergleiche das Gelenk mit dem JSON-Schema einer Szene (`triad schema`).",
   "Compare the element with the JSON Schema of a scene; points and vectors of a body are in its own frame.":
     "Vergleiche das Element mit dem JSON-Schema einer Szene; Punkte und Vektoren eines Körpers gelten in seinem eigenen System.",
   "Change the formula so that it has a value and all derivatives in the whole run, let the run end before, or write a table instead.":
@@ -205,6 +219,10 @@ export const told: Record<string, string> = {
     "Lockere die Toleranz, und sieh dir den letzten guten Zustand an.",
   "Loosen the tolerance, use projection as the stabilization, and look at the last good state for a joint that locks or a body that is far too light.":
     "Lockere die Toleranz, nimm Projektion als Stabilisierung, und such im letzten guten Zustand nach einem Gelenk, das klemmt, oder einem viel zu leichten Körper.",
+  "Take shorter steps than those of {size} s, or leave their size to the tolerance.":
+    "Nimm kürzere Schritte als die von {size} s, oder überlass ihre Länge der Toleranz.",
+  "Take shorter steps than those of {size} s, or leave their size to the tolerance; through singular positions use taylor or dop853 with projection.":
+    "Nimm kürzere Schritte als die von {size} s, oder überlass ihre Länge der Toleranz; durch singuläre Lagen nimm taylor oder dop853 mit Projektion.",
   "Take shorter steps, or none of one size: methods that choose their steps count turns.":
     "Nimm kürzere Schritte oder keine von fester Größe: Verfahren, die ihre Schritte selbst wählen, zählen Umdrehungen.",
   "Tighten the tolerance, which shortens the steps; through singular positions use taylor or dop853 with projection.":
