@@ -2,6 +2,8 @@
 
 mod blocks;
 
+mod pivots;
+
 pub use blocks::products_within;
 
 pub mod elimination;

@@ -11,7 +11,7 @@ use crate::newton::{DEPENDENT, find_dependent_rows};
 use crate::state::State;
 use crate::system::System;
 use crate::system::index::SolverRow;
-use crate::system::islands;
+use crate::system::islands::is_tree;
 
 pub use crate::constraints::geometry::Rank;
 
@@ -22,19 +22,11 @@ pub fn analyze(system: &System, state: &mut State, q: &[f64]) -> Rank {
 
 /// As [`analyze`], as long as that is wanted; what is said of it afterwards means nothing.
 pub fn analyze_if(system: &System, state: &mut State, q: &[f64], still: &dyn Fn() -> bool) -> Rank {
-    if is_tree(system) {
+    if is_tree(&system.model) {
         let rank = system.solver_rows;
         return Rank { rank, at_start: rank, dependent: Vec::new() };
     }
     Geometry::new(system).analyze(state, q, still)
-}
-
-/// Whether the joints are those of a tree and nothing else: their rows are independent whatever the position.
-pub fn is_tree(system: &System) -> bool {
-    let model = &system.model;
-    let simple =
-        model.drivers.is_empty() && model.joints.iter().all(|joint| joint.coupled_joints().is_none());
-    simple && !islands::has_loops(model)
 }
 
 /// Rows of a tree of joints are independent: if rounding finds them dependent in the measure of the masses, with which the
@@ -50,7 +42,7 @@ pub fn check_masses(
     elimination: &mut Elimination,
     q: &[f64],
 ) -> Result<(), ConstraintError> {
-    if !is_tree(system) {
+    if !is_tree(&system.model) {
         return Ok(());
     }
     state.set_positions(system, q);

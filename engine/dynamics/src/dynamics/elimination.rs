@@ -21,6 +21,7 @@ pub use solution::{Accelerations, JointWrench, Multipliers};
 pub use twist_jacobian::TwistJacobian;
 
 use crate::dynamics::blocks::{BlockProduct, SchurLayout};
+use crate::dynamics::pivots::Pivots;
 use crate::model::CustomLoadError;
 use crate::state::{AppliedForces, State};
 use crate::system::System;
@@ -37,11 +38,6 @@ use triad_linalg::{BlockCholesky, larger};
 /// Large enough that rounding in a nearly singular S stays harmless through singular positions (with 1e-11 the step
 /// control stalls there at tolerances of 1e-12), small enough that two refinements remove its effect elsewhere.
 pub const REGULARIZATION: f64 = 1e-9;
-/// Relative pivot of S below which it is regularized although its rows were found independent: the position is nearly
-/// singular.
-pub(super) const NEAR_SINGULAR: f64 = 1e-9;
-/// The same where a step is to be decided by rows that hardly hold: rounding is just below.
-pub(super) const LOST: f64 = 1e-15;
 /// Steps of iterative refinement where S is regularized.
 const REFINEMENTS: usize = 3;
 /// Most proximal steps that take the effect of inertia regularization out again.
@@ -105,6 +101,8 @@ pub struct Elimination {
     shows: bool,
     /// Whether rows that hardly hold are kept, and dependent ones left out instead of regularized.
     resolving: bool,
+    /// Those of the current factor.
+    pivots: Pivots,
     regularizes_inertia: bool,
     /// Dry friction, if there is any.
     frictions: Option<Box<Frictions>>,
@@ -137,6 +135,7 @@ impl Elimination {
             regularized: false,
             shows: false,
             resolving: false,
+            pivots: Pivots::new(system),
             regularizes_inertia: system.regularizes_inertia(),
             frictions: (!system.frictions.is_empty()).then(|| Box::new(Frictions::new(system))),
             dependent: Vec::new(),
@@ -282,7 +281,8 @@ impl Elimination {
         self.solve_rows();
         self.lambda.copy_from_slice(&self.residual);
         self.apply_multipliers(system);
-        let steps = match (self.regularizes_inertia, self.regularized || self.resolving) {
+        let steps = match (self.regularizes_inertia, self.regularized || self.resolving || self.pivots.small)
+        {
             (true, _) => PROXIMAL_STEPS,
             (false, true) => REFINEMENTS,
             (false, false) => 0,

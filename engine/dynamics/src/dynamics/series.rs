@@ -41,7 +41,8 @@ mod island;
 pub use island::IslandSeries;
 pub use step::{SeriesStep, StepPlan};
 
-use crate::dynamics::elimination::{Counters, LOST, NEAR_SINGULAR, REGULARIZATION};
+use crate::dynamics::elimination::{Counters, REGULARIZATION};
+use crate::dynamics::pivots::Pivots;
 use crate::model::BodyRef;
 use crate::system::System;
 use bodies::{Bodies, Bundle, FeatureSlot, LanePlace, Planar, Single};
@@ -106,6 +107,8 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     redundant: bool,
     /// Whether the current factor is that of a regularized S.
     regularized: bool,
+    /// Those of the current factor.
+    pivots: Pivots,
     /// Whether rows that hardly hold are kept.
     resolving: bool,
     /// Whether solutions are only corrections of a state, of which the next one takes out what rounding has left: they are not refined.
@@ -163,8 +166,7 @@ impl<const L: usize> Series<L, Planar<L>> {
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
     fn of(system: &System, order: usize, turns: &[f64]) -> Self {
         let (bundles, mut slots, mut place) = bundles::<L, B>(system);
-        let moving = slots.len();
-        let mut ground = Vec::new();
+        let (moving, mut ground) = (slots.len(), Vec::new());
         for (feature, place) in system.features.iter().zip(&mut place) {
             if feature.body == BodyRef::Ground {
                 *place = LanePlace { slot: moving + ground.len(), lane: 0 };
@@ -215,6 +217,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             corrects_only: false,
             expansion: Expansion::default(),
             factor_is_here: false,
+            pivots: Pivots::new(system),
             regularizes_inertia: system.regularizes_inertia(),
             counters: Counters::default(),
             probe: None,
@@ -244,7 +247,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             let epsilon = if self.regularized { REGULARIZATION } else { 0.0 };
             let smallest = self.schur.factor.factor(epsilon, 0.0);
             self.counters.factorizations += 1;
-            if self.regularized || smallest >= if self.resolving { LOST } else { NEAR_SINGULAR } {
+            if !self.pivots.are_lost(smallest, self.resolving) || self.regularized {
                 return;
             }
             self.regularized = true;

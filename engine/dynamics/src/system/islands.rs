@@ -153,6 +153,13 @@ fn links(model: &Model) -> impl Iterator<Item = [BodyRef; 2]> + '_ {
     joints.chain(geared).chain(drivers).chain(loads)
 }
 
+/// Whether the joints are those of a tree and nothing else: their rows are independent whatever the position.
+pub fn is_tree(model: &Model) -> bool {
+    let simple =
+        model.drivers.is_empty() && model.joints.iter().all(|joint| joint.coupled_joints().is_none());
+    simple && !has_loops(model)
+}
+
 /// Whether joints or drivers close loops: rows of a tree never depend on each other. Drivers along a joint and gears close
 /// none.
 pub fn has_loops(model: &Model) -> bool {

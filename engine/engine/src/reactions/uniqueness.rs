@@ -13,11 +13,11 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use schemars::JsonSchema;
 use serde::Serialize;
 use triad_dynamics::constraints::geometry::Geometry;
-use triad_dynamics::constraints::rank;
 use triad_dynamics::dynamics::elimination::TwistJacobian;
 use triad_dynamics::state::State;
 use triad_dynamics::system::System;
 use triad_dynamics::system::index::{ConstraintId, IncidenceId, SolverRow};
+use triad_dynamics::system::islands::is_tree;
 
 /// Greatest square of the number of rows times the number of those that are too many: what finding the joints that share them
 /// costs, a second or two at most.
@@ -108,7 +108,7 @@ impl NullSpace {
             return Err(UniquenessError::NotFinite);
         }
         let rows = system.solver_rows;
-        if rank::is_tree(system) {
+        if is_tree(&system.model) {
             let none = DMatrix::zeros(rows, 0);
             return Ok(Self { basis: none.clone(), scaled: none, lengths });
         }

@@ -1,6 +1,6 @@
 //! S = A D⁻¹ Aᵀ and its factor — eq. (7.6).
 
-use super::{Elimination, LOST, NEAR_SINGULAR, REGULARIZATION};
+use super::{Elimination, REGULARIZATION};
 use crate::dynamics::blocks::{add_block, add_square};
 use crate::state::State;
 use crate::system::System;
@@ -17,7 +17,7 @@ impl Elimination {
         self.assemble(system);
         let smallest = self.factor.factor(epsilon, 0.0);
         self.counters.factorizations += 1;
-        if !self.regularized && smallest < if self.resolving { LOST } else { NEAR_SINGULAR } {
+        if self.pivots.are_lost(smallest, self.resolving) && !self.regularized {
             self.regularized = true;
             self.assemble(system);
             self.factor.factor(REGULARIZATION, 0.0);

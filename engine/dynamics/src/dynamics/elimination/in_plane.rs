@@ -288,7 +288,7 @@ impl Elimination {
     /// Solves with the factor and the multipliers of a state nearby; false where that cannot be done, or that state is too far.
     fn solve_near(&mut self, system: &System, state: &State, baumgarte: (f64, f64), near: &Self) -> bool {
         let plain = |of: &Self| !(of.regularizes_inertia || of.resolving || of.frictions.is_some());
-        if near.solved_in_plane || near.regularized || !plain(near) || !plain(self) {
+        if near.solved_in_plane || near.regularized || near.pivots.small || !plain(near) || !plain(self) {
             return false;
         }
         self.set_up(system, state);

@@ -141,7 +141,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     #[inline(always)]
     pub(super) fn solve<S: Simd>(&mut self, simd: S, n: usize) {
         let rows = self.correction.len();
-        let refines = self.regularized || (self.resolving && !self.corrects_only);
+        let refines = self.regularized || self.pivots.small || (self.resolving && !self.corrects_only);
         let refinements = match (self.regularizes_inertia, refines) {
             (true, _) => PROXIMAL_STEPS,
             (false, true) => REFINEMENTS,

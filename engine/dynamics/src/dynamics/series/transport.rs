@@ -368,6 +368,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         swap(&mut twin.bundles, &mut series.bundles);
         swap(&mut twin.schur, &mut series.schur);
         swap(&mut twin.regularized, &mut series.regularized);
+        swap(&mut twin.pivots, &mut series.pivots);
         for (own, common) in twin.rows.commons.iter_mut().zip(&mut series.rows.commons) {
             swap(&mut own.across, &mut common.across);
         }
