@@ -4,6 +4,7 @@
 //! needs the earlier ones, and what depends on velocities refuses to be read while they belong to other positions.
 
 mod angle;
+mod difference;
 mod energy;
 mod event;
 mod forces;
@@ -13,6 +14,7 @@ mod rows;
 
 pub use angle::AngleState;
 pub(crate) use angle::nearest;
+pub use difference::{Apart, Difference};
 pub use energy::kinetic_of_step;
 pub use forces::AppliedForces;
 pub use frame::BodyFrame;

@@ -5,6 +5,7 @@ mod singularity;
 
 mod examiner;
 mod frame;
+mod ringing;
 mod state_view;
 
 mod companion;

@@ -1,6 +1,7 @@
 //! The second solution beside a run whose integrator carries no error along: the error is what lies between the two —
 //! eq. (11.13).
 
+use super::ringing::Ringing;
 use crate::integrate::{self, Integrator, StepRecord};
 use crate::scene::{ConstraintMethod, IntegratorKind};
 use triad_dynamics::constraints::mechanism::Mechanism;
@@ -60,6 +61,8 @@ pub(super) struct Companion {
     y: Vec<f64>,
     /// Its own error.
     own: Vec<f64>,
+    /// Vibrations that both may lose, where it goes beside the same stiff method.
+    ringing: Option<Ringing>,
     lost: Option<Lost>,
 }
 
@@ -89,6 +92,7 @@ impl Companion {
         mechanism.set_state(t, y);
         let integrator = Integrator::start_beside(kind, &mut mechanism, t, y);
         let own = vec![0.0; y.len()];
+        let ringing = if stiff { Ringing::new(&mechanism) } else { None };
         Some(Box::new(Self {
             mechanism,
             integrator,
@@ -97,6 +101,7 @@ impl Companion {
             compared: t,
             y: y.to_vec(),
             own,
+            ringing,
             lost: None,
         }))
     }
@@ -115,6 +120,9 @@ impl Companion {
     pub fn keep_up(&mut self, first: &Integrator) {
         let last = first.last();
         self.compare(last.t, &last.y, first);
+        if let Some(ringing) = self.ringing.as_mut().filter(|_| self.lost.is_none() && last.h > 0.0) {
+            ringing.look(&self.mechanism, last, &self.y);
+        }
     }
 
     /// Goes on to time t in the first one's last step, not before that of the last comparison, at which the first solution is y.
@@ -168,6 +176,9 @@ impl Companion {
         if known {
             for (out, (here, there)) in out.iter_mut().zip(y.iter().zip(&self.y)) {
                 *out = here - there;
+            }
+            if let Some(ringing) = &self.ringing {
+                ringing.add_to(out);
             }
         }
         known

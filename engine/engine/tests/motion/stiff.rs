@@ -352,3 +352,57 @@ fn stages_beside_each_other_move_as_one_by_one() {
     println!("{off:.1e}, work {work} and {other}");
     assert!(off < 1e-9 && (work - other).abs() < 1e-7, "{off:.1e}, work {work} and {other}");
 }
+
+/// A mass on a rail that swings on a spring, x = a e^(−γt) cos ωt, and a stiff damper elsewhere, for whose sake the stiff method is taken:
+/// its steps skip the swings, and damp them.
+fn quiver(stiffness: f64, amplitude: f64, own_damping: f64) -> Scene {
+    let block = |name: &str, y: f64| serde_json::json!({"name": name, "mass": 1, "inertia": {"principal": [0.1, 0.1, 0.1]}, "position": [0, y, 0]});
+    let rail = |name: &str, i: &str, j: &str, y: f64, axis: [f64; 3], start: serde_json::Value| serde_json::json!({"name": name, "type": "prismatic", "body_i": i, "body_j": j, "point_i": [0, y, 0], "point_j": [0, 0, 0], "axis_i": axis, "axis_j": axis, "start": start});
+    let value = serde_json::json!({
+        "name": "quiver", "gravity": [0, 0, 0], "bodies": [block("m", 0.0), block("d", 1.0)],
+        "joints": [
+            rail("rail", "ground", "m", 0.0, [1.0, 0.0, 0.0], serde_json::json!({"slide": amplitude})),
+            rail("pot", "m", "d", 1.0, [0.0, 1.0, 0.0], serde_json::json!({"speed": 1}))
+        ],
+        "loads": [
+            {"name": "spring", "type": "slider", "joint": "rail", "stiffness": stiffness, "damping": own_damping},
+            {"name": "damper", "type": "slider", "joint": "pot", "damping": 1e5}
+        ],
+        "simulation": {"duration": 0.5}
+    });
+    Scene::from_json(&value.to_string()).unwrap().integrator(IntegratorKind::Radau)
+}
+
+#[test]
+fn a_vibration_that_both_solutions_lose_stays_in_the_error() {
+    // Two blocks move along the rail.
+    for (stiffness, amplitude, tolerance) in [(2e7, 1e-5, 1e-3), (2e7, 1e-4, 1e-2), (2e7, 1e-6, 1e-4)] {
+        let mut run = Simulation::new(&quiver(stiffness, amplitude, 0.0).tolerance(tolerance)).unwrap();
+        let omega = (stiffness / 2.0).sqrt();
+        for row in 1..=50 {
+            run.advance_to(0.01 * f64::from(row)).unwrap();
+            let turn = omega * run.time();
+            let [x, v] = [amplitude * libm::cos(turn), -amplitude * omega * libm::sin(turn)];
+            let body = run.frame().bodies[0];
+            let [off, faster] = [(body.position[0] - x).abs(), (body.velocity[0] - v).abs()];
+            let told = run.error_estimate().unwrap();
+            // Positions and velocities pass through zero in turns.
+            let [worth, error] = [omega * told.position + told.velocity, omega * off + faster];
+            assert!(worth > 0.1 * error, "{row}: {told:?} for {off:e} m and {faster:e} m/s");
+            assert!(worth < 8.0 * amplitude * omega, "{row}: {told:?}");
+        }
+        assert!(run.frame().bodies[0].position[0].abs() < 0.1 * amplitude, "it is not lost");
+    }
+}
+
+#[test]
+fn a_vibration_that_dampers_end_leaves_the_error() {
+    let (stiffness, damping, amplitude) = (2e7, 160.0, 1e-5);
+    let mut run = Simulation::new(&quiver(stiffness, amplitude, damping).tolerance(1e-3)).unwrap();
+    run.advance_to(0.02).unwrap();
+    let early = run.error_estimate().unwrap();
+    run.advance_to(0.5).unwrap();
+    let late = run.error_estimate().unwrap();
+    // γ = c/2m = 40/s for 0.48 s.
+    assert!(late.position < 1e-6 * early.position.max(amplitude), "{early:?}, {late:?}");
+}
