@@ -232,7 +232,7 @@ fn contradiction() -> Scene {
 #[test]
 fn constraints_that_cannot_be_satisfied() {
     let mut met = Refusals::new(variants!(
-        ConstraintError: Assembly, StartTooFar, MotionImpossible, MassesTooDifferent, Lost, NotFinite
+        ConstraintError: Assembly, StartTooFar, MotionImpossible, MassesTooDifferent, Lost, NothingHolds, NotFinite
     ));
     let mut meet = |tried: &str, scene: &Scene| {
         let told = run_error(scene);
@@ -266,6 +266,10 @@ fn constraints_that_cannot_be_satisfied() {
         {"name": "far", "type": "spherical", "body_i": "light", "body_j": "heavy", "point": [1, 0, 0]}]);
     (masses["loads"], masses["parameters"]) = (json!([]), json!([]));
     meet("a heavy body on a light one", &scene(&masses));
+    let mut turned = with("/bodies", json!([{"name": "point", "mass": 1, "position": [1, 0, 0]}]));
+    (turned["joints"], turned["parameters"]) = (json!([]), json!([]));
+    turned["loads"] = json!([{"name": "twist", "type": "moment", "body": "point", "moment": [0, 0, 2]}]);
+    meet("a moment on a point mass", &scene(&turned));
     // A run tells it as `EngineError::Diverged`.
     let error = ConstraintError::NotFinite { time: 1.0 };
     met.meet("a state that is not finite", &error, error.code(), error.pointer(), error.hint());

@@ -4,6 +4,8 @@ mod blocks;
 
 mod pivots;
 
+mod proximal;
+
 pub use blocks::products_within;
 
 pub mod elimination;

@@ -82,6 +82,8 @@ pub struct Simulation {
     seen: Seen,
     /// Whether neither drivers nor loads without potential act.
     conservative: bool,
+    /// Whether something may turn a body about an axis about which it has no inertia.
+    may_lose_balance: bool,
     /// Their work up to the start of the last step, J.
     work: f64,
     scratch: Vec<f64>,
@@ -268,6 +270,11 @@ impl Simulation {
             companion.keep_up(&self.integrator);
         }
         self.step_integrator(end)?;
+        if self.may_lose_balance {
+            let last = self.integrator.last();
+            let balance = self.mechanism.check_balance(last.t, &last.y);
+            balance.map_err(|error| self.left_constraints(error))?;
+        }
         self.seen.step(&self.mechanism.system, self.integrator.last(), self.work);
         self.find_events();
         if !self.model().settings.skip.reports {

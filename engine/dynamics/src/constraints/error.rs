@@ -90,6 +90,24 @@ pub enum ConstraintError {
         /// Largest violation relative to the size of the row.
         violation: f64,
     },
+    /// A body is turned about an axis about which it has no inertia, and nothing holds it there: no acceleration answers to that.
+    #[error(
+        "nothing determines how fast body \"{body}\" turns: at t = {time:.6} s {moment:.3e} N m turn it about ({:.3}, {:.3}, {:.3}), \
+         about which it has no inertia, or next to none, and nothing holds it there",
+        axis[0], axis[1], axis[2]
+    )]
+    NothingHolds {
+        /// Time, s.
+        time: f64,
+        /// The body.
+        body: String,
+        /// Its place in the scene, as a JSON pointer.
+        pointer: String,
+        /// The moment that nothing answers to, N m.
+        moment: f64,
+        /// Its direction in the world, of length one.
+        axis: [f64; 3],
+    },
     /// A state is not finite.
     #[error("the state at t = {time:.6} s is not finite")]
     NotFinite {
@@ -122,7 +140,13 @@ fn together(with: &[String]) -> String {
 impl ConstraintError {
     /// Whether it is found at a state of a motion, and not before it begins.
     pub fn is_during_motion(&self) -> bool {
-        matches!(self, Self::MotionImpossible { .. } | Self::Lost { .. } | Self::NotFinite { .. })
+        matches!(
+            self,
+            Self::MotionImpossible { .. }
+                | Self::Lost { .. }
+                | Self::NothingHolds { .. }
+                | Self::NotFinite { .. }
+        )
     }
 
     /// Stable name of the kind of error.
@@ -133,6 +157,7 @@ impl ConstraintError {
             Self::MotionImpossible { .. } => "motion-impossible",
             Self::MassesTooDifferent { .. } => "masses-too-different",
             Self::Lost { .. } => "constraints-lost",
+            Self::NothingHolds { .. } => "nothing-holds",
             Self::NotFinite { .. } => "diverged",
         }
     }
@@ -143,7 +168,8 @@ impl ConstraintError {
             Self::Assembly { pointer, .. }
             | Self::StartTooFar { pointer, .. }
             | Self::MotionImpossible { pointer, .. }
-            | Self::MassesTooDifferent { pointer, .. } => Some(pointer),
+            | Self::MassesTooDifferent { pointer, .. }
+            | Self::NothingHolds { pointer, .. } => Some(pointer),
             Self::Lost { .. } | Self::NotFinite { .. } => None,
         }
     }
@@ -171,6 +197,10 @@ impl ConstraintError {
             Self::Lost { .. } => {
                 "Look at the last good state: a driver asks for more than the joints allow, two of them contradict each \
                  other, masses or stiffnesses are too different for the tolerance, or the stabilization is too weak."
+            }
+            Self::NothingHolds { .. } => {
+                "Give the body a moment of inertia about that axis, let a joint keep it from turning about it, or let the load act \
+                 in points of the axis."
             }
             Self::NotFinite { .. } => "Loosen the tolerance, and look at the last good state.",
         }

@@ -100,6 +100,37 @@ impl Mechanism {
         self.check_motion(t, most)
     }
 
+    /// Whether something may turn a body about an axis about which it has no inertia.
+    pub fn may_lose_balance(&self) -> bool {
+        let System { model, loads, .. } = &self.system;
+        let turns = || {
+            !model.custom_loads.is_empty()
+                || loads.iter().any(|load| load.turns_without_inertia(&self.system))
+        };
+        self.system.regularizes_inertia() && turns()
+    }
+
+    /// Refuses a state at which something turns a body about an axis about which it has no inertia and nothing holds it: what is computed
+    /// there is no acceleration. Counters stay.
+    ///
+    /// # Errors
+    ///
+    /// [`ConstraintError::NothingHolds`].
+    pub fn check_balance(&mut self, t: f64, y: &[f64]) -> Result<(), ConstraintError> {
+        let counters = self.elimination.counters;
+        self.accelerations(t, y);
+        self.elimination.counters = counters;
+        let Some((body, left)) = self.elimination.out_of_balance(&self.system) else { return Ok(()) };
+        let moment = left.norm();
+        Err(ConstraintError::NothingHolds {
+            time: t,
+            body: self.system.model.bodies[body].name.clone(),
+            pointer: format!("/bodies/{body}"),
+            moment,
+            axis: (left / moment).into(),
+        })
+    }
+
     /// Moves a start onto the constraints. Returns what was corrected, in words.
     ///
     /// # Errors

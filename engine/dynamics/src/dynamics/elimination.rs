@@ -5,6 +5,7 @@
 //! body. Their multipliers come from S λ = …, S = A diag(m I, I_g)⁻¹ Aᵀ, which is block-sparse. This is exact for any
 //! directors, orthonormal or not, and for full and reduced bodies alike.
 
+mod balance;
 mod factor;
 mod friction;
 mod idle;
@@ -22,6 +23,7 @@ pub use twist_jacobian::TwistJacobian;
 
 use crate::dynamics::blocks::{BlockProduct, SchurLayout};
 use crate::dynamics::pivots::Pivots;
+use crate::dynamics::proximal::{PROXIMAL_STEPS, Proximal};
 use crate::model::CustomLoadError;
 use crate::state::{AppliedForces, State};
 use crate::system::System;
@@ -40,12 +42,6 @@ use triad_linalg::{BlockCholesky, larger};
 pub const REGULARIZATION: f64 = 1e-9;
 /// Steps of iterative refinement where S is regularized.
 const REFINEMENTS: usize = 3;
-/// Most proximal steps that take the effect of inertia regularization out again.
-pub(super) const PROXIMAL_STEPS: usize = 30;
-/// Part of the last correction above which the next one is no smaller: both are rounding.
-pub(super) const STALLED: f64 = 0.95;
-/// Part of the multipliers below which a correction is rounding.
-pub(super) const ROUNDING: f64 = 1e-15;
 
 /// Work done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
@@ -287,9 +283,8 @@ impl Elimination {
             (false, true) => REFINEMENTS,
             (false, false) => 0,
         };
-        let first = size(&self.residual);
-        let mut last = first;
-        for step in 0..steps {
+        let mut proximal = Proximal::begin(size(&self.residual));
+        for _ in 0..steps {
             self.remove_regularization(system);
             self.row_residual(system);
             self.solve_rows();
@@ -297,14 +292,8 @@ impl Elimination {
                 *lambda += correction;
             }
             self.apply_multipliers(system);
-            if self.regularizes_inertia {
-                // Corrections shrink by the same factor each time: the next one would be size²/last.
-                let size = size(&self.residual);
-                let small = size * size <= ROUNDING * first * last;
-                if step + 1 >= REFINEMENTS && (small || size >= STALLED * last) {
-                    break;
-                }
-                last = size;
+            if self.regularizes_inertia && proximal.ends(size(&self.residual), false) {
+                break;
             }
         }
     }

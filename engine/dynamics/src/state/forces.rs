@@ -14,6 +14,8 @@ use nalgebra::Vector3;
 
 /// Rate, in the smoothing of a dry friction, from which on it is all there: tanh 20 is one to the last digit.
 const STICKING: f64 = 20.0;
+/// Part of the length of the mechanism that a point of an axis may lie beside it.
+const ON_AXIS: f64 = 1e-9;
 
 /// Generalized applied forces of all bodies.
 #[derive(Clone, Debug, Default)]
@@ -98,6 +100,28 @@ impl AppliedForces {
 }
 
 impl SystemLoad {
+    /// Whether it may turn a body about an axis about which that has no inertia: not along lines through points of the axis.
+    pub fn turns_without_inertia(&self, system: &System) -> bool {
+        let near = ON_AXIS * system.length;
+        let lacks = |body: &BodyRef| match body {
+            BodyRef::Ground => false,
+            BodyRef::Moving(body) => system.bodies[*body].regularizing_inertia > 0.0,
+        };
+        let beside = |body: &BodyRef, point: &Vector3<f64>| match body {
+            BodyRef::Ground => false,
+            BodyRef::Moving(body) => system.bodies[*body].beside_lacking_axis(point) > near,
+        };
+        match self {
+            Self::Force { body, local, .. } => beside(&BodyRef::Moving(*body), local),
+            Self::Moment { body, .. } => lacks(&BodyRef::Moving(*body)),
+            Self::Spring { from, to, .. } => {
+                [from, to].into_iter().any(|end| beside(&system[*end].body, &system[*end].local))
+            }
+            Self::Torsion { bodies, .. } => bodies.iter().any(lacks),
+            Self::Slider { .. } => self.features().iter().any(|feature| lacks(&system[*feature].body)),
+        }
+    }
+
     /// Adds its generalized force to those of the bodies.
     pub fn apply(&self, system: &System, at: &State, forces: &mut AppliedForces) {
         let t = at.time;

@@ -100,6 +100,18 @@ impl RigidBody {
         }
     }
 
+    /// How far a point of its principal frame is from the axis about which it has no inertia, m, or from its centre of mass if that is every
+    /// axis; zero if there is none.
+    pub fn beside_lacking_axis(&self, point: &Vector3<f64>) -> f64 {
+        let lacks = |k: &usize| self.principal[*k] < self.regularizing_inertia;
+        let mut lacking = (0..3).filter(lacks);
+        match (lacking.next(), lacking.next()) {
+            (None, _) => 0.0,
+            (Some(axis), None) => (point - Vector3::ith(axis, point[axis])).norm(),
+            (Some(_), Some(_)) => point.norm(),
+        }
+    }
+
     /// Q of all generalized coordinates q.
     pub fn position(&self, q: &[f64]) -> NaturalCoordinates {
         let Some(part) = self.parts.first() else { return self.layout.position(q) };

@@ -86,6 +86,10 @@ impl Simulation {
         let state = &mechanism.state;
         let (current, start_energy) = (CachedState::new(0.0, &start, state), state.energy(&mechanism.system));
         check_loads(&mechanism)?;
+        let may_lose_balance = mechanism.may_lose_balance();
+        if may_lose_balance {
+            mechanism.check_balance(0.0, &start)?;
+        }
         let (kind, reason) = integrate::choose(&mut mechanism, &start);
         let asked = mechanism.system.model.settings.integrator;
         if asked != IntegratorKind::Auto && asked != kind {
@@ -116,6 +120,7 @@ impl Simulation {
             start_energy,
             seen,
             conservative,
+            may_lose_balance,
             work: 0.0,
             scratch,
             step_limit: u64::MAX,

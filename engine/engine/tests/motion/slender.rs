@@ -152,3 +152,34 @@ fn a_light_link_carries_a_heavy_body_as_a_universal_joint_does() {
         }
     }
 }
+
+/// What a moment does to a body without inertia about its axis is not determined, or by next to nothing: the run is refused, or ends where the
+/// moment begins.
+#[test]
+fn a_moment_that_nothing_answers_to_is_refused() {
+    let rod = |inertia: f64, moment: Value| {
+        json!({
+            "name": "rod", "gravity": [0, 0, 0],
+            "bodies": [{"name": "rod", "mass": 1, "inertia": {"principal": [inertia, 1.0 / 12.0, 1.0 / 12.0]}, "position": [0.5, 0, 0]}],
+            "joints": [{"name": "ball", "type": "spherical", "body_i": "ground", "body_j": "rod", "point": [0, 0, 0]}],
+            "loads": [{"name": "twist", "type": "moment", "body": "rod", "frame": "body", "moment": moment}],
+            "simulation": {"duration": 1}
+        })
+    };
+    let about_axis = json!([0.1, 0, 0]);
+    let later = json!({"kind": "components", "x": {"kind": "smooth-step", "from": 0, "to": 0.1, "start": 0.2, "end": 0.4}, "y": 0, "z": 0});
+    let across = json!([0, 0.1, 0.05]);
+    for way in WAYS {
+        let run = |inertia: f64, moment: &Value| {
+            let scene = Scene::from_json(&rod(inertia, moment.clone()).to_string()).unwrap().integrator(way);
+            Simulation::new(&scene).and_then(|mut run| run.advance_to(1.0).map(|()| run))
+        };
+        for inertia in [0.0, 1e-12] {
+            assert_eq!(run(inertia, &about_axis).unwrap_err().code(), "nothing-holds", "{inertia:e}, {way}");
+            assert_eq!(run(inertia, &later).unwrap_err().code(), "nothing-holds", "{inertia:e}, {way}");
+            assert!(run(inertia, &across).is_ok(), "{inertia:e}, {way}");
+        }
+        let turned = run(1e-3, &about_axis).unwrap().frame().bodies[0].angular_velocity;
+        assert!((turned[0] - 100.0).abs() < 1e-4, "{way}: {turned:?}");
+    }
+}

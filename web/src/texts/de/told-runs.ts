@@ -24,6 +24,8 @@ export const toldOfRuns: Record<string, string> = {
     "der Lauf endet bei t = {time} s: Gelenk „{joint}“ ist um {violation} der Größe des Mechanismus offen",
   'the run stops at t = {time} s: joint "{joint}" is open by {violation} of the mechanism\'s size, and with it {with}':
     "der Lauf endet bei t = {time} s: Gelenk „{joint}“ ist um {violation} der Größe des Mechanismus offen und mit ihm {with}",
+  'nothing determines how fast body "{body}" turns: at t = {time} s {moment} N m turn it about ({x}, {y}, {z}), about which it has no inertia, or next to none, and nothing holds it there':
+    "nichts bestimmt, wie schnell Körper „{body}“ sich dreht: Bei t = {time} s drehen ihn {moment} N m um ({x}, {y}, {z}), worum er keine oder fast keine Trägheit hat und nichts ihn hält",
   "the state at t = {time} s is not finite": "der Zustand bei t = {time} s ist nicht endlich",
   "the integration stops at t = {time} s: no step above {step} s meets the tolerance":
     "die Integration endet bei t = {time} s: Kein Schritt über {step} s hält die Toleranz ein",

@@ -3,7 +3,7 @@
 use super::lanes::{raise_whole, times};
 use super::recurrence::real;
 use super::{Bodies, Series};
-use crate::dynamics::elimination::{PROXIMAL_STEPS, ROUNDING, STALLED};
+use crate::dynamics::proximal::{PROXIMAL_STEPS, Proximal};
 use pulp::{Simd, WithSimd};
 use triad_linalg::{fma, larger};
 
@@ -153,7 +153,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         if self.points.has_others() {
             self.set_ground(false);
         }
-        let (mut first, mut last) = (0.0, f64::INFINITY);
+        let mut proximal = Proximal::begin(0.0);
         let mut pass = 0;
         loop {
             if pass > 0 && self.regularizes_inertia {
@@ -174,18 +174,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             }
             self.apply_multipliers(simd, n);
             if self.regularizes_inertia {
-                // Corrections shrink by the same factor each time: the next one would be size²/last.
                 let size = self.correction.iter().fold(0.0f64, |most, x| larger(most, x.abs()));
                 if pass == 0 {
-                    first = size;
-                } else {
-                    let small = size * size <= ROUNDING * first * last && first > 0.0;
-                    let enough = pass > REFINEMENTS;
-                    if small && (enough || !self.regularized) || enough && size >= STALLED * last {
-                        break;
-                    }
+                    proximal = Proximal::begin(size);
+                } else if proximal.ends(size, !self.regularized) {
+                    break;
                 }
-                last = size;
             }
             if pass == refinements {
                 break;

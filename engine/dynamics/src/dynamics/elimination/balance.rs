@@ -1,0 +1,40 @@
+//! Whether a solution answers to all moments: what is regularized may have nothing that does.
+
+use super::Elimination;
+use crate::system::System;
+use nalgebra::Vector3;
+
+/// Part of the moments and forces on a body above which a moment that is left is no rounding.
+const LEFT: f64 = 1e-6;
+
+impl Elimination {
+    /// The body without inertia about some axis that the last solution leaves most out of balance, and the moment that is left, N m: the
+    /// iteration (7.8) takes it from one step to the next, and the acceleration grows with it.
+    pub fn out_of_balance(&self, system: &System) -> Option<(usize, Vector3<f64>)> {
+        let left = |body: usize| {
+            let (solve, regularizing) = (&self.bodies[body], system.bodies[body].regularizing_inertia);
+            (solve.twist[1] - solve.returned) * regularizing
+        };
+        (0..system.bodies.len())
+            .filter(|&body| system.bodies[body].regularizing_inertia > 0.0)
+            .map(|body| (body, left(body)))
+            .filter(|(body, left)| left.norm() > LEFT * self.size_of_loads(system, *body))
+            .max_by(|a, b| a.1.norm().total_cmp(&b.1.norm()))
+    }
+
+    /// All that acts on a body in the last solution, however much of it cancels, as a moment, N m.
+    fn size_of_loads(&self, system: &System, body: usize) -> f64 {
+        let of = |force: f64, moment: f64| system.length * force + moment;
+        let [force, moment] = &self.bodies[body].wrench;
+        let mut size = of(force.norm(), moment.norm());
+        for incidence in system.incidences.iter().filter(|incidence| incidence.body == body) {
+            let first = system[incidence.constraint].solver.start;
+            let block = &self.jacobian.a[incidence.offset..incidence.offset + 6 * incidence.rows];
+            for (a, lambda) in block.as_chunks::<6>().0.iter().zip(&self.lambda[first..]) {
+                let [force, moment] = [0, 3].map(|k| Vector3::new(a[k], a[k + 1], a[k + 2]).norm());
+                size += lambda.abs() * of(force, moment);
+            }
+        }
+        size
+    }
+}
