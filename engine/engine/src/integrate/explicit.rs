@@ -309,7 +309,13 @@ impl OdeMethod for Explicit {
             Control::MeanSquare { tolerance } => self.step_by_mean_square(system, end, tolerance),
             Control::Ode45(control) => self.step_by_ode45(system, end, control),
             Control::Fixed => self.fixed_step(system, end),
+        }?;
+        // Its end is moved onto the constraints, from far away perhaps to nowhere.
+        if !is_finite(&self.last.y) {
+            OdeMethod::take_back(self);
+            return Err(self.last.not_finite());
         }
+        Ok(())
     }
 
     /// What dense output needs beyond the stages is evaluated at most once for each step.
