@@ -100,6 +100,8 @@ pub struct Elimination {
     /// Those of the current factor.
     pivots: Pivots,
     regularizes_inertia: bool,
+    /// How the effect of that was taken out of the last solution.
+    proximal: Proximal,
     /// Dry friction, if there is any.
     frictions: Option<Box<Frictions>>,
     /// The solver rows that depend on others at every state.
@@ -133,6 +135,7 @@ impl Elimination {
             resolving: false,
             pivots: Pivots::new(system),
             regularizes_inertia: system.regularizes_inertia(),
+            proximal: Proximal::begin(0.0),
             frictions: (!system.frictions.is_empty()).then(|| Box::new(Frictions::new(system))),
             dependent: Vec::new(),
             plane: None,
@@ -283,7 +286,7 @@ impl Elimination {
             (false, true) => REFINEMENTS,
             (false, false) => 0,
         };
-        let mut proximal = Proximal::begin(size(&self.residual));
+        self.proximal = Proximal::begin(size(&self.residual));
         for _ in 0..steps {
             self.remove_regularization(system);
             self.row_residual(system);
@@ -292,7 +295,7 @@ impl Elimination {
                 *lambda += correction;
             }
             self.apply_multipliers(system);
-            if self.regularizes_inertia && proximal.ends(size(&self.residual), false) {
+            if self.regularizes_inertia && self.proximal.ends(size(&self.residual), false) {
                 break;
             }
         }

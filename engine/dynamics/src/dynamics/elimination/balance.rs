@@ -6,20 +6,23 @@ use nalgebra::Vector3;
 
 /// Part of the moments and forces on a body above which a moment that is left is no rounding.
 const LEFT: f64 = 1e-6;
+/// Part of the others that the last of equal steps is at least.
+const EQUAL: f64 = 0.9;
 
 impl Elimination {
-    /// The body without inertia about some axis that the last solution leaves most out of balance, and the moment that is left, N m: the
-    /// iteration (7.8) takes it from one step to the next, and the acceleration grows with it.
+    /// The body without inertia about some axis that the last solution leaves most out of balance, and the moment that is left, N m: each step
+    /// of the iteration (7.8) adds as much to its acceleration as the one before.
     pub fn out_of_balance(&self, system: &System) -> Option<(usize, Vector3<f64>)> {
+        let least = EQUAL * self.proximal.part_of_equal_steps();
         let left = |body: usize| {
             let (solve, regularizing) = (&self.bodies[body], system.bodies[body].regularizing_inertia);
-            (solve.twist[1] - solve.returned) * regularizing
+            let added = solve.twist[1] - solve.returned;
+            let goes_on = added.norm_squared() > least * added.dot(&solve.twist[1]).abs();
+            let left = added * regularizing;
+            (regularizing > 0.0 && goes_on && left.norm() > LEFT * self.size_of_loads(system, body))
+                .then_some((body, left))
         };
-        (0..system.bodies.len())
-            .filter(|&body| system.bodies[body].regularizing_inertia > 0.0)
-            .map(|body| (body, left(body)))
-            .filter(|(body, left)| left.norm() > LEFT * self.size_of_loads(system, *body))
-            .max_by(|a, b| a.1.norm().total_cmp(&b.1.norm()))
+        (0..system.bodies.len()).filter_map(left).max_by(|a, b| a.1.norm().total_cmp(&b.1.norm()))
     }
 
     /// All that acts on a body in the last solution, however much of it cancels, as a moment, N m.
