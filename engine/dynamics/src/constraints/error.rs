@@ -196,7 +196,8 @@ impl ConstraintError {
             }
             Self::Lost { .. } => {
                 "Look at the last good state: a driver asks for more than the joints allow, two of them contradict each \
-                 other, masses or stiffnesses are too different for the tolerance, or the stabilization is too weak."
+                 other, joints that hold the same are not aligned, masses or stiffnesses are too different for the \
+                 tolerance, or the stabilization is too weak."
             }
             Self::NothingHolds { .. } => {
                 "Give the body a moment of inertia about that axis, let a joint keep it from turning about it, or let the load act \

@@ -4,11 +4,12 @@
 //! turns so easily that rounding along this turn hides what the other rows say. Here each body has the mass one, and the arm
 //! of its joints as radius of gyration about every axis. All that counts rows, freedoms or redundancies asks here.
 
+use crate::constraints::violation;
 use crate::dynamics::elimination::{Elimination, ProjectableState};
 use crate::newton::{DEPENDENT, move_away};
 use crate::state::State;
 use crate::system::System;
-use crate::system::index::{IncidenceId, SolverRow};
+use crate::system::index::{ConstraintId, IncidenceId, SolverRow};
 use nalgebra::DMatrix;
 use triad_linalg::random::Random;
 use triad_linalg::{independent_rows_if, left_null_space};
@@ -16,6 +17,8 @@ use triad_linalg::{independent_rows_if, left_null_space};
 /// Relative pivot below which rounding could hide that later rows depend on others: it leaves ε over this pivot in theirs. Then the
 /// decision is taken anew with pivots in the order of their size.
 const UNCLEAR: f64 = 1e-5;
+/// Part of a motion by which rows may open that depend on others: rounding.
+const EXACT: f64 = 1e-11;
 /// Rounds of projecting and orthonormalizing: the first leaves the rounding of columns that were nearly parallel, the second
 /// nothing.
 const ROUNDS: usize = 2;
@@ -26,7 +29,7 @@ const PROJECTIONS: usize = 2;
 const SEED: u64 = 14;
 
 /// What the pivots say.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Rank {
     /// Rank of the joint rows that the solver keeps.
     pub rank: usize,
@@ -34,6 +37,8 @@ pub struct Rank {
     pub at_start: usize,
     /// The solver rows that depend on others.
     pub dependent: Vec<SolverRow>,
+    /// The joint that opens most where it holds what others hold but not exactly, and by what part of the motion that they leave free.
+    pub inexact: Option<(ConstraintId, f64)>,
 }
 
 /// A system measured in lengths, with its rows at one position.
@@ -102,8 +107,42 @@ impl Geometry {
             move_away(&mut on, length);
             self.place_if(state, still);
         }
-        let rows = self.system.solver_rows;
-        Rank { rank: rows - self.dependent.len(), at_start: rows - lost, dependent: self.dependent.clone() }
+        let (rows, inexact) = (self.system.solver_rows, if still() { self.inexact() } else { None });
+        Rank {
+            rank: rows - self.dependent.len(),
+            at_start: rows - lost,
+            dependent: self.dependent.clone(),
+            inexact,
+        }
+    }
+
+    /// The dependent row that opens most in a motion that the others allow, if that is more than rounding.
+    fn inexact(&mut self) -> Option<(ConstraintId, f64)> {
+        if self.dependent.is_empty() || self.freedoms() == 0 {
+            return None;
+        }
+        let Self { system, elimination, dependent, .. } = self;
+        let (mut random, length, sizes) = (Random::new(SEED), system.length, violation::row_sizes(system));
+        let unit = |k: usize| if k % 6 < 3 { length } else { 1.0 };
+        let mut motion: Vec<f64> =
+            (0..6 * system.bodies.len()).map(|k| unit(k) * random.between(-1.0, 1.0)).collect();
+        let mut worst = None;
+        // One projection is enough where rows are far from depending on others.
+        for _ in 0..=PROJECTIONS {
+            elimination.allow(system, &mut motion);
+            let moved = motion.iter().enumerate().fold(0.0f64, |most, (k, x)| most.max(x.abs() / unit(k)));
+            let rates = elimination.row_rates(system, &motion);
+            let part = |row: &SolverRow| (*row, rates[row.index()].abs() / (sizes[row.index()] * moved));
+            worst = dependent
+                .iter()
+                .map(part)
+                .max_by(|a, b| a.1.total_cmp(&b.1))
+                .filter(|(_, part)| *part > EXACT);
+            worst?;
+        }
+        let (row, part) = worst?;
+        let joint = system.constraints.iter().position(|own| own.solver.contains(&row.index()))?;
+        Some((ConstraintId(joint), part))
     }
 
     /// An orthonormal basis of the twists that the joints allow at the position — eq. (10.11), lengths of arc measured with the

@@ -24,7 +24,7 @@ pub fn analyze(system: &System, state: &mut State, q: &[f64]) -> Rank {
 pub fn analyze_if(system: &System, state: &mut State, q: &[f64], still: &dyn Fn() -> bool) -> Rank {
     if is_tree(&system.model) {
         let rank = system.solver_rows;
-        return Rank { rank, at_start: rank, dependent: Vec::new() };
+        return Rank { rank, at_start: rank, dependent: Vec::new(), inexact: None };
     }
     Geometry::new(system).analyze(state, q, still)
 }

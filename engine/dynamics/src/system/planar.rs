@@ -20,6 +20,10 @@ use triad_linalg::orthonormal_basis;
 /// Difference up to which unit vectors are the same and components are zero: rounding of an assembled start.
 const ALIKE: f64 = 1e-11;
 
+/// Gradient in the plane, of vectors of length one, below which a row is not of the plane: the axis of its joint misses the normal
+/// by as little, and alone in a plane it would lock what it lets move in space.
+const HARDLY: f64 = 1e-5;
+
 /// Directions in the plane and its normal, as columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
@@ -216,6 +220,9 @@ fn kept(flat: &System, rows: &[Row], joint: &str) -> Result<Vec<Row>, Spatial> {
                 if across(flat, a) || across(flat, b) {
                     continue;
                 }
+                if weight(flat, &row.form) < HARDLY {
+                    return Err(Spatial::Mixed { joint: joint.to_owned() });
+                }
                 let same = kept.iter_mut().find(|other| repeats(flat, &other.form, &row.form));
                 if let Some(other) = same {
                     // Of two rows with one meaning, that with the larger gradient.
@@ -278,7 +285,7 @@ fn weight(flat: &System, form: &Form) -> f64 {
     let Form::Product { a, b, .. } = *form else { return 0.0 };
     let size = |x: Difference| {
         let feature = &flat[x.plus];
-        if feature.point { 1.0 } else { feature.local.xy().norm() }
+        if feature.point || feature.curve.is_some() { 1.0 } else { feature.local.xy().norm() }
     };
     size(a) * size(b)
 }

@@ -169,6 +169,13 @@ pub(crate) fn analyze_rank(
             rank.rank - rank.at_start
         ));
     }
+    if let Some((joint, part)) = rank.inexact {
+        notes.add(format!(
+            "joint \"{}\" holds what others hold, but not exactly: a motion opens it by {part:.0e} of its length, which is taken for \
+             rounding; give axes and points with all their digits, or a joint that leaves free what the others hold",
+            system[joint].name
+        ));
+    }
     if !(rank.dependent.is_empty() || system.frictions.is_empty()) {
         notes.add(
             "joints hold more than once what they hold: friction with a coefficient follows the smallest reactions that do, which \

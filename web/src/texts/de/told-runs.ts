@@ -102,6 +102,8 @@ export const toldOfRuns: Record<string, string> = {
     "Gelenk „{joint}“: {given} {unit} sind für den Anfang gegeben, aber alles Gegebene zusammen lässt {found}",
   "the start is a singular position: {n} rows lose their hold there, and several branches of motion may begin; without a velocity that chooses one, which of them is followed is not determined":
     "Der Anfang ist eine singuläre Lage: {n} Zeilen verlieren dort ihren Halt, und mehrere Zweige der Bewegung können beginnen; ohne eine Geschwindigkeit, die einen wählt, ist nicht bestimmt, welchem gefolgt wird",
+  'joint "{joint}" holds what others hold, but not exactly: a motion opens it by {part} of its length, which is taken for rounding; give axes and points with all their digits, or a joint that leaves free what the others hold':
+    "Gelenk „{joint}“ hält, was andere halten, aber nicht genau: Eine Bewegung öffnet es um {part} ihrer Länge, was als Rundung gilt; gib Achsen und Punkte mit allen Stellen, oder ein Gelenk, das frei lässt, was die anderen halten",
   "joints hold more than once what they hold: friction with a coefficient follows the smallest reactions that do, which need not be those of a real mechanism":
     "Gelenke halten mehrfach, was sie halten: Reibung mit einem Beiwert folgt den kleinsten Reaktionen, die es tun, und das müssen nicht die eines wirklichen Mechanismus sein",
   'body "{body}": with {n} attached masses it has {mass} kg, its centre of mass at {at}':

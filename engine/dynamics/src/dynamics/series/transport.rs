@@ -37,6 +37,9 @@ const DIVERGES: f64 = 0.1;
 /// The series of an error are long enough where two successive terms are below this part of what the last step added to it. What is
 /// left out adds up like that: more would be another error, which grows with the time as that does.
 const UNFINISHED: f64 = 0.1;
+/// Where what the steps add cancels on the whole, what is left out may not: the error of a fast vibration would fade as much as it
+/// grows. There series end by what the error has grown in each step so far, but by no less than this part of what the last step added.
+const CANCELLED: f64 = 0.1;
 /// The fewest terms.
 const FEWEST: usize = 3;
 
@@ -63,8 +66,10 @@ pub(super) struct Transport<const L: usize, B: Bodies<L>> {
     /// within the step are not.
     tail: Tail,
     added: Vec<[B::Natural; 2]>,
-    /// What that is worth, m.
+    /// What that is worth, m, and what the whole error is there, after so many steps.
     worth: f64,
+    grown: f64,
+    steps: f64,
     /// The order and size, s, of the last step.
     step: (usize, f64),
     /// Positions at which S was factored last, and those at which it was for the last step.
@@ -181,6 +186,8 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             tail: Tail::default(),
             added: nothing,
             worth: 0.0,
+            grown: 0.0,
+            steps: 0.0,
             step: (0, 0.0),
             factored: [positions.clone(), positions],
             evaluated: None,
@@ -199,6 +206,11 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         self.step.1 = 0.0;
         self.evaluated = None;
         self.lost = self.lost.filter(|lost| *lost < t);
+    }
+
+    /// What the last two terms of the error are to be below, m.
+    fn enough(&self) -> f64 {
+        UNFINISHED * (self.grown / self.steps).min(self.worth).max(CANCELLED * self.worth)
     }
 
     /// Whether rows that hardly hold are kept.
@@ -256,7 +268,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         for b in 0..self.arrived.len() {
             self.arrived[b] = self.at(b, self.step.1);
         }
-        self.unfinished &= self.last_terms() > UNFINISHED * self.worth;
+        self.unfinished &= self.last_terms() > self.enough();
     }
 
     /// Carries a part of the error. The whole error sees that S is not factored exactly at x; for a part of it S is disturbed likewise,
@@ -294,10 +306,10 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
     /// step. It is looked at from one order less on than in the step before.
     fn differ(&mut self, series: &Series<L, B>, s: f64, length: f64) -> f64 {
         let (most, h) = self.step;
+        let enough = self.enough();
         let Self { twin, carried, arrived, terms, order, .. } = self;
         let fewest = order.saturating_sub(1).max(FEWEST).min(most);
         let orders = [fewest, most];
-        let enough = UNFINISHED * self.worth;
         let differ =
             Differ::<L, B> { of: &series.q, twin, orders, s, h, length, enough, carried, terms, arrived };
         let after;
@@ -341,6 +353,8 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         let (tail, [size, added]) = Arch::new().dispatch(missed);
         self.tail = tail;
         self.worth = added.after(step.1, length);
+        self.grown = size.after(step.1, length);
+        self.steps += 1.0;
         if at_break {
             self.twin.set_time(series.time);
         }
