@@ -72,6 +72,8 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     q: Vec<B::Natural>,
     /// Coefficients of the directors' forces p, likewise.
     p: Vec<B::Directors>,
+    /// Coefficients of ω̇, likewise, where bodies have inertia regularization.
+    turns: Vec<B::Moment>,
     /// C⁻¹ s̃ of all features.
     mobility: Vec<B::Mobility>,
     /// Values of features (or their rates, or second derivatives), those of the ground behind those of bodies.
@@ -199,6 +201,10 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             sizes: vec![0.0; stride],
             q: vec![B::zero(); bundles.len() * stride],
             p: vec![B::no_directors(); bundles.len() * stride],
+            turns: vec![
+                B::no_moment();
+                if system.regularizes_inertia() { bundles.len() * stride } else { 0 }
+            ],
             mobility: vec![B::no_mobility(); moving],
             bundles,
             slots,

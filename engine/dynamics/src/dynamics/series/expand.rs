@@ -1,7 +1,7 @@
 //! The recurrence over the orders: from all coefficients before them to Q_(n+2) and λ_n.
 
 use super::lanes::{raise_whole, times};
-use super::recurrence::real;
+use super::recurrence::acceleration_factor;
 use super::{Bodies, Series};
 use crate::dynamics::proximal::{PROXIMAL_STEPS, Proximal};
 use pulp::{Simd, WithSimd};
@@ -76,7 +76,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         if self.is_bare() && !self.regularizes_inertia && self.solve_alone(simd, n) {
             return;
         }
-        let kappa = real((n + 1) * (n + 2));
+        let kappa = acceleration_factor(n);
         let over_kappa = 1.0 / kappa;
         let needs_values = self.needs_values;
         for bundle in &mut self.bundles {
@@ -100,12 +100,18 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         if needs_values {
             self.prepare_prescribed(n + 2, kappa);
         }
+        if self.regularizes_inertia {
+            self.turn_on(simd, n);
+        }
         self.solve(simd, n);
         let mut largest = [0.0; 4];
         for (b, bundle) in self.bundles.iter().enumerate() {
             let at = b * self.stride + n;
             take_solution::<S, L, B>(simd, bundle, over_kappa, &mut self.q[at + 2], &mut largest);
             self.p[at] = bundle.director_forces(simd);
+            if self.regularizes_inertia {
+                self.turns[at] = bundle.turn_found(self.turns[at]);
+            }
         }
         self.sizes[n + 2] = largest.into_iter().fold(0.0, larger);
         if needs_values {
@@ -120,6 +126,21 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             }
             self.prescribed.add_known(over_kappa, &mut self.values);
             self.store_values(simd, n + 2);
+        }
+    }
+
+    /// Has bodies without inertia about an axis turn on about it as they do, where nothing holds it: the equations say nothing of that, and
+    /// the inertia that regularizes them speaks of ë alone, whose part across the directors is ω̇ in order 0 only.
+    #[inline(always)]
+    fn turn_on<S: Simd>(&mut self, simd: S, n: usize) {
+        for (b, bundle) in self.bundles.iter_mut().enumerate() {
+            let first = b * self.stride;
+            let q = &self.q[first..first + self.stride];
+            let known = B::known_turn(q, n);
+            if n > 0 {
+                bundle.turn_on(simd, q, &self.turns[first..first + n], known);
+            }
+            self.turns[first + n] = known;
         }
     }
 

@@ -32,6 +32,12 @@ pub fn real(order: usize) -> f64 {
     f64::from(order as u32)
 }
 
+/// κ = (n + 1) (n + 2), by which coefficient n of a second derivative is that of order n + 2.
+#[inline(always)]
+pub fn acceleration_factor(n: usize) -> f64 {
+    real((n + 1) * (n + 2))
+}
+
 /// Coefficients of a vector.
 pub type Vectors = Vec<Vector3<f64>>;
 

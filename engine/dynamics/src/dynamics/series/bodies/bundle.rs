@@ -5,9 +5,10 @@ use super::inertia::{invert_inertia, products_of_inertia};
 use super::kernels::Bodies;
 use super::slot::FeatureSlot;
 use crate::dynamics::series::lanes::{
-    Lane, LaneVector, Natural, add_cross, add_scaled, cross, dot, less, minor, multiply, negative, plus,
-    scaled, sum, times, zero,
+    Lane, LaneVector, Natural, add_cross, add_dot, add_scaled, cross, dot, less, minor, multiply, negative,
+    plus, scaled, sum, times, zero,
 };
+use crate::dynamics::series::recurrence::acceleration_factor;
 use crate::system::{System, body::RigidBody, natural::NaturalCoordinates};
 use nalgebra::Vector3;
 use pulp::Simd;
@@ -310,6 +311,18 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
+    fn known_turn(q: &[Natural<L>], n: usize) -> LaneVector<L> {
+        let mut known = [[0.0; L]; 3];
+        for (i, e) in q[1..=n].iter().enumerate() {
+            let half = 0.5 * acceleration_factor(n - 1 - i);
+            for (e, f) in e[1..].iter().zip(&q[n + 1 - i][1..]) {
+                add_cross(&mut known, e, &scaled(&[half; L], f));
+            }
+        }
+        known
+    }
+
+    #[inline(always)]
     fn no_moment() -> LaneVector<L> {
         [[0.0; L]; 3]
     }
@@ -373,6 +386,28 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
         for (all, force) in self.force.as_flattened_mut().iter_mut().zip(force.as_flattened()) {
             *all = sum(all, force);
         }
+    }
+
+    #[inline(always)]
+    fn turn_on<S: Simd>(&mut self, _: S, q: &[Natural<L>], turns: &[LaneVector<L>], known: LaneVector<L>) {
+        let mut expected = known.map(|x| negative(&x));
+        for k in 1..4 {
+            let mut along = [0.0; L];
+            for (turn, e) in turns.iter().zip(q[1..=turns.len()].iter().rev()) {
+                add_dot(&mut along, turn, &e[k]);
+            }
+            add_scaled(&mut expected, &negative(&along), &q[0][k]);
+        }
+        self.taken_out = expected;
+        self.turn(&q[0], &scaled(&self.regularizing_inertia, &expected));
+    }
+
+    #[inline(always)]
+    fn turn_found(&self, mut known: LaneVector<L>) -> LaneVector<L> {
+        for c in 0..3 {
+            known[c] = sum(&known[c], &self.omega[c]);
+        }
+        known
     }
 
     /// One proximal step for bodies whose inertia is regularized.

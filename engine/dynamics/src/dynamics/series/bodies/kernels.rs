@@ -55,7 +55,7 @@ pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     /// Right-hand sides of the rigid-body rows.
     type Rigid: Copy;
     /// Moments about the centres of mass.
-    type Moment: Copy;
+    type Moment: Copy + Debug;
     /// Director forces less the directors' inertia: what moments are made of.
     type Directors: Copy + Debug;
     /// C⁻¹ s̃ of a feature's arm s.
@@ -149,6 +149,11 @@ pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     fn begin<S: Simd>(&mut self, simd: S, q: &Self::Natural, gamma: &Self::Rigid, moment: Self::Moment);
     /// Adds what further generalized forces do.
     fn apply<S: Simd>(&mut self, simd: S, q: &Self::Natural, force: &Self::Natural);
+    /// Begins the iteration (7.8) of order n with ω̇ for which the bodies turn on as they do, about axes without inertia that nothing
+    /// holds: from those of all orders before, and from what these make of that of order n.
+    fn turn_on<S: Simd>(&mut self, simd: S, q: &[Self::Natural], turns: &[Self::Moment], known: Self::Moment);
+    /// ω̇ of the solution, which is of order n, with what lower orders make of it.
+    fn turn_found(&self, known: Self::Moment) -> Self::Moment;
     /// One proximal step for bodies whose inertia is regularized.
     fn remove_regularization<S: Simd>(&mut self, simd: S, q: &Self::Natural);
     /// The solution.
@@ -160,6 +165,8 @@ pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     fn gram<S: Simd>(simd: S, q: &[Self::Natural], n: usize, kappa: f64) -> Self::Rigid;
     /// Σ_k Σ e_k(i) × p_k(n−i) over 0 < i ≤ n: the part of the moment that lower orders make.
     fn moment<S: Simd>(simd: S, q: &[Self::Natural], p: &[Self::Directors], n: usize) -> Self::Moment;
+    /// Σ of ½ Σ_k e_k(i) × ë_k(n−i) over 0 < i ≤ n: the part of ω̇ that lower orders make.
+    fn known_turn(q: &[Self::Natural], n: usize) -> Self::Moment;
     /// Q_(n+2) of bodies on which nothing acts but their weight, from the coefficients before it, if it is known.
     #[inline(always)]
     fn alone<S: Simd>(&mut self, _: S, _q: &[Self::Natural], _n: usize) -> Option<Self::Natural> {

@@ -7,7 +7,8 @@ use super::alone_in_plane::AloneInPlane;
 use super::kernels::Bodies;
 use super::pair::{Pair, cross, each, gram, moment, turned};
 use super::slot::FeatureSlot;
-use crate::dynamics::series::lanes::{Lane, LaneVector};
+use crate::dynamics::series::lanes::{Lane, LaneVector, plus, sum};
+use crate::dynamics::series::recurrence::acceleration_factor;
 use crate::system::System;
 use crate::system::body::{PlanarPose, RigidBody};
 use crate::system::natural::NaturalCoordinates;
@@ -324,6 +325,19 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
+    fn turn_on<S: Simd>(&mut self, _: S, q: &[[Pair<L>; 2]], _: &[Lane<L>], known: Lane<L>) {
+        // The normal is the same in all orders.
+        self.taken_out = each(|l| -known[l]);
+        let moment = each(|l| -self.regularizing_inertia[l] * known[l]);
+        self.turn(&q[0][1], &[[0.0; L]; 2], &moment);
+    }
+
+    #[inline(always)]
+    fn turn_found(&self, known: Lane<L>) -> Lane<L> {
+        sum(&known, &self.omega)
+    }
+
+    #[inline(always)]
     fn remove_regularization<S: Simd>(&mut self, _: S, q: &[Pair<L>; 2]) {
         let moment = each(|l| self.regularizing_inertia[l] * (self.omega[l] - self.taken_out[l]));
         self.taken_out = self.omega;
@@ -353,6 +367,16 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     #[inline(always)]
     fn moment<S: Simd>(_: S, q: &[[Pair<L>; 2]], p: &[Pair<L>], n: usize) -> Lane<L> {
         moment(q, p, n)
+    }
+
+    #[inline(always)]
+    fn known_turn(q: &[[Pair<L>; 2]], n: usize) -> Lane<L> {
+        let mut known = [0.0; L];
+        for (i, [_, z]) in q[1..=n].iter().enumerate() {
+            let across = cross(z, &q[n + 1 - i][1]);
+            known = plus(&[acceleration_factor(n - 1 - i); L], &across, &known);
+        }
+        known
     }
 
     #[inline(always)]

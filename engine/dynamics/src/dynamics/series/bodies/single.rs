@@ -3,18 +3,22 @@
 
 use super::alone::Alone;
 use super::bundle::Bundle;
-use super::components::{Components, ZERO, combined, cross, gram, moment, narrowed, packed, turned, widened};
+use super::components::{
+    Components, ZERO, column, combined, cross, gram, moment, narrowed, packed, turned, widened,
+};
 use super::kernels::Bodies;
 use super::slot::FeatureSlot;
 use crate::dynamics::series::lanes::{
-    Lane, LaneVector, difference_whole, plus_whole, sum_whole, times_whole,
+    Lane, LaneVector, add_cross, difference_whole, plus_whole, scaled, sum_whole, times_whole,
 };
+use crate::dynamics::series::recurrence::acceleration_factor;
 use crate::system::System;
 use crate::system::body::RigidBody;
 use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 use pulp::Simd;
 use std::ops::Range;
+use triad_linalg::fma;
 
 /// One body.
 #[derive(Clone, Debug)]
@@ -275,6 +279,18 @@ impl Bodies<1> for Single {
     }
 
     #[inline(always)]
+    fn known_turn(q: &[[Components; 4]], n: usize) -> Components {
+        let mut known = [[0.0]; 3];
+        for (i, e) in q[1..=n].iter().enumerate() {
+            let half = 0.5 * acceleration_factor(n - 1 - i);
+            for (e, f) in e[1..].iter().zip(&q[n + 1 - i][1..]) {
+                add_cross(&mut known, &column(e), &scaled(&[half], &column(f)));
+            }
+        }
+        widened(&known)
+    }
+
+    #[inline(always)]
     fn alone<S: Simd>(&mut self, simd: S, q: &[[Components; 4]], n: usize) -> Option<[Components; 4]> {
         Some(self.alone.expand(simd, q, n))
     }
@@ -304,6 +320,31 @@ impl Bodies<1> for Single {
         for (all, force) in self.force.iter_mut().zip(force) {
             *all = sum_whole(simd, all, force);
         }
+    }
+
+    #[inline(always)]
+    fn turn_on<S: Simd>(&mut self, simd: S, q: &[[Components; 4]], turns: &[Components], known: Components) {
+        let mut expected = times_whole(simd, &[-1.0; 4], &known);
+        for k in 1..4 {
+            let mut along = 0.0;
+            for (turn, e) in turns.iter().zip(q[1..=turns.len()].iter().rev()) {
+                for c in 0..3 {
+                    along = fma(turn[c], e[k][c], along);
+                }
+            }
+            expected = plus_whole(simd, &[-along; 4], &q[0][k], &expected);
+        }
+        self.taken_out = expected;
+        let inertia = self.plain.regularizing_inertia[0];
+        self.turn(simd, &q[0], times_whole(simd, &[inertia; 4], &expected));
+    }
+
+    #[inline(always)]
+    fn turn_found(&self, mut known: Components) -> Components {
+        for c in 0..3 {
+            known[c] += self.omega[c];
+        }
+        known
     }
 
     #[inline(always)]
