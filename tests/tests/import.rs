@@ -187,3 +187,19 @@ fn starts_of_joints_that_one_number_does_not_place_are_told() {
     assert_eq!(left.iter().filter(|(line, _)| *line == 5).count(), 2, "{left:?}");
     assert!(starts.len() == 3 && starts[2].contains("a fixed joint has none"), "{starts:?}");
 }
+
+#[test]
+fn the_inertia_of_a_part_without_mass_is_told_to_be_left_out() {
+    let robot = r#"<robot name="r">
+<link name="base"/>
+<link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="rotor"><inertial><mass value="0"/><inertia ixx="5" iyy="5" izz="5" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="j" type="revolute"><parent link="base"/><child link="a"/><axis xyz="0 1 0"/></joint>
+<joint name="k" type="fixed"><parent link="a"/><child link="rotor"/></joint>
+</robot>"#;
+    let folder = tempfile::tempdir().unwrap();
+    let urdf = folder.path().join("rotor.urdf");
+    std::fs::write(&urdf, robot).unwrap();
+    let (_, told) = run_json(&["import", urdf.to_str().unwrap()]);
+    assert!(left_out(&told, "what").contains(&(4, "it has no mass: its inertia is left out")), "{told:#}");
+}

@@ -232,7 +232,7 @@ fn contradiction() -> Scene {
 #[test]
 fn constraints_that_cannot_be_satisfied() {
     let mut met = Refusals::new(variants!(
-        ConstraintError: Assembly, StartTooFar, MotionImpossible, MassesTooDifferent, Lost, NothingHolds, NotFinite
+        ConstraintError: Assembly, StartTooFar, MotionImpossible, MassesTooDifferent, Lost, NothingHolds, AngleLost, NotFinite
     ));
     let mut meet = |tried: &str, scene: &Scene| {
         let told = run_error(scene);
@@ -270,6 +270,12 @@ fn constraints_that_cannot_be_satisfied() {
     (turned["joints"], turned["parameters"]) = (json!([]), json!([]));
     turned["loads"] = json!([{"name": "twist", "type": "moment", "body": "point", "moment": [0, 0, 2]}]);
     meet("a moment on a point mass", &scene(&turned));
+    let held = json!([{"name": "hold", "type": "angle-to-world", "body": "bob", "vector": [0, 1, 0], "reference": [0, 1, 0],
+        "motion": {"kind": "ramp", "start": -0.5, "rate": 1}}]);
+    let mut through = with("/drivers", held);
+    through["bodies"][0]["orientation"] = json!({"axis": [0, 0, 1], "angle": -0.5});
+    through["bodies"][0]["position"] = json!([0, 0, 0]);
+    meet("an angle that its cosine leads through zero", &scene(&through));
     // A run tells it as `EngineError::Diverged`.
     let error = ConstraintError::NotFinite { time: 1.0 };
     met.meet("a state that is not finite", &error, error.code(), error.pointer(), error.hint());

@@ -26,7 +26,7 @@ mod reader;
 pub use body::ModelBody;
 pub use custom_load::{BodyMotion, CustomLoad, CustomLoadError, LoadState, ModelCustomLoad, Motions, Wrench};
 pub use driver::{DriverKind, ModelDriver};
-pub use error::ModelError;
+pub use error::{ModelError, OTHER_THAN_COSINE};
 pub use event::{EventQuantity, ModelEvent};
 pub use joint::{JointGeometry, ModelJoint, director_along};
 pub use load::{ForceLaw, LoadKind, ModelLoad};
@@ -34,7 +34,7 @@ pub use marker::ModelMarker;
 pub use output::wants_joint;
 pub use placement::ModelStart;
 
-use crate::scene::{ConstraintMethod, Event, Load, Marker, Scene, Settings, WrittenScene};
+use crate::scene::{ConstraintMethod, Driver, Event, Load, Marker, Scene, Settings, WrittenScene};
 use nalgebra::Vector3;
 use reader::ModelReader;
 use std::collections::HashMap;
@@ -121,6 +121,7 @@ impl Model {
         // Joints and drivers share one space of names: both label rows.
         let mut row_names = HashMap::new();
         let (joints, mut starts) = read_joints(scene, &names, &bodies, &mut row_names, &mut notes)?;
+        placement::begin_where_driven(&driven_from(scene, &names, &bodies, &joints), &joints, &mut starts);
         meshing::pass_on(&joints, &mut starts)?;
         placement::place(&mut bodies, &joints, &starts, &mut notes);
         let reader = |list, index, name| ModelReader {
@@ -163,6 +164,28 @@ impl Model {
             notes,
         })
     }
+}
+
+/// The joints that drivers turn, and the angles from which on, as far as the drivers can be read.
+fn driven_from(
+    scene: &Scene,
+    names: &HashMap<String, usize>,
+    bodies: &[ModelBody],
+    joints: &[ModelJoint],
+) -> Vec<(usize, f64)> {
+    let duration = scene.simulation.duration;
+    let angles = scene.drivers.iter().enumerate().filter_map(|(index, written)| {
+        if !matches!(written, Driver::Angle { .. }) {
+            return None;
+        }
+        let reader =
+            ModelReader { list: "drivers", index, name: written.name(), names, bodies, joints, duration };
+        match ModelDriver::new(written, &reader).ok()?.kind {
+            DriverKind::Angle { joint, motion } => Some((joint, motion.at(0.0)[0])),
+            _ => None,
+        }
+    });
+    angles.collect()
 }
 
 /// The joints of a scene, and the starts of those that have one. A gear refers to joints that stand before it.

@@ -208,8 +208,8 @@ impl AnalysisError {
                  analyse a part of the mechanism as a scene of its own."
             }
             Self::NoEquilibrium { .. } => {
-                "Look whether anything holds that body: a body that falls freely has no equilibrium. Otherwise start \
-                 nearer to where it comes to rest."
+                "Look whether anything holds that body: a body that falls freely has no equilibrium. Make springs alike: where stiffnesses differ \
+                 by more than 1e8, the rounding of the stiff ones hides the soft ones. Otherwise start nearer to where it comes to rest."
             }
             Self::NoSteadyMotion { .. } => {
                 "Drive at constant speed what loads drive or brake, turn about an axis along the weight, and leave out the weight \

@@ -249,6 +249,9 @@ fn add_body(scene: &mut Scene, placed: &Placed, left_out: &mut Vec<OmittedItem>)
         if has_mass(link) {
             let what = "it does not move: its mass has no meaning".to_owned();
             left_out.push(OmittedItem { line: link.line, of: format!("link {}", link.name), what });
+        } else if link.inertial.as_ref().is_some_and(|inertial| inertial.tensor.abs().max() > 0.0) {
+            let what = "it has no mass: its inertia is left out".to_owned();
+            left_out.push(OmittedItem { line: link.line, of: format!("link {}", link.name), what });
         }
         return;
     }

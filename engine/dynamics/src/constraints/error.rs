@@ -1,5 +1,7 @@
 //! What can be wrong with the constraints of a mechanism.
 
+use crate::model::OTHER_THAN_COSINE;
+
 /// The constraints cannot be satisfied, or no longer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ConstraintError {
@@ -108,6 +110,21 @@ pub enum ConstraintError {
         /// Its direction in the world, of length one.
         axis: [f64; 3],
     },
+    /// A driver that prescribes the cosine of an angle leads it to 0 or π, or past them.
+    #[error(
+        "driver \"{driver}\" prescribes the cosine of an angle, which at t = {time:.6} s is {angle:.6} rad: it cannot reach 0 or pi, where \
+             the cosine does not change with the angle, and holds nothing"
+    )]
+    AngleLost {
+        /// Time, s.
+        time: f64,
+        /// The driver.
+        driver: String,
+        /// Its place in the scene, as a JSON pointer.
+        pointer: String,
+        /// The angle, rad.
+        angle: f64,
+    },
     /// A state is not finite.
     #[error("the state at t = {time:.6} s is not finite")]
     NotFinite {
@@ -145,6 +162,7 @@ impl ConstraintError {
             Self::MotionImpossible { .. }
                 | Self::Lost { .. }
                 | Self::NothingHolds { .. }
+                | Self::AngleLost { .. }
                 | Self::NotFinite { .. }
         )
     }
@@ -158,6 +176,7 @@ impl ConstraintError {
             Self::MassesTooDifferent { .. } => "masses-too-different",
             Self::Lost { .. } => "constraints-lost",
             Self::NothingHolds { .. } => "nothing-holds",
+            Self::AngleLost { .. } => "angle-lost",
             Self::NotFinite { .. } => "diverged",
         }
     }
@@ -169,7 +188,8 @@ impl ConstraintError {
             | Self::StartTooFar { pointer, .. }
             | Self::MotionImpossible { pointer, .. }
             | Self::MassesTooDifferent { pointer, .. }
-            | Self::NothingHolds { pointer, .. } => Some(pointer),
+            | Self::NothingHolds { pointer, .. }
+            | Self::AngleLost { pointer, .. } => Some(pointer),
             Self::Lost { .. } | Self::NotFinite { .. } => None,
         }
     }
@@ -203,6 +223,7 @@ impl ConstraintError {
                 "Give the body a moment of inertia about that axis, let a joint keep it from turning about it, or let the load act \
                  in points of the axis."
             }
+            Self::AngleLost { .. } => OTHER_THAN_COSINE,
             Self::NotFinite { .. } => "Loosen the tolerance, and look at the last good state.",
         }
     }

@@ -247,6 +247,21 @@ impl Mechanism {
         }))
     }
 
+    /// Refuses angles that their cosines prescribe no longer.
+    ///
+    /// # Errors
+    ///
+    /// [`ConstraintError::AngleLost`].
+    pub fn check_angles(&self, time: f64) -> Result<(), ConstraintError> {
+        let drivers = &self.system.model.drivers;
+        let lost =
+            drivers.iter().enumerate().find_map(|(k, driver)| Some((k, driver, driver.lost_angle(time)?)));
+        lost.map_or(Ok(()), |(k, driver, angle)| {
+            let (driver, pointer) = (driver.name.clone(), format!("/drivers/{k}"));
+            Err(ConstraintError::AngleLost { time, driver, pointer, angle })
+        })
+    }
+
     /// Refuses rates of drivers that no velocities satisfy: those in place come nearest, and miss one by more than `most`.
     /// Without drivers there are always velocities: zero.
     fn check_motion(&self, time: f64, most: f64) -> Result<(), ConstraintError> {

@@ -168,13 +168,8 @@ impl<const L: usize> Series<L, Planar<L>> {
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
     fn of(system: &System, order: usize, turns: &[f64]) -> Self {
         let (bundles, mut slots, mut place) = bundles::<L, B>(system);
-        let (moving, mut ground) = (slots.len(), Vec::new());
-        for (feature, place) in system.features.iter().zip(&mut place) {
-            if feature.body == BodyRef::Ground {
-                *place = LanePlace { slot: moving + ground.len(), lane: 0 };
-                ground.push([0, 1, 2].map(|c| [feature.local[c]; L]));
-            }
-        }
+        let moving = slots.len();
+        let mut ground = place_ground(system, moving, &mut place);
         let nowhere = LanePlace { slot: moving + ground.len(), lane: 0 };
         ground.push([[0.0; L]; 3]);
         let (stride, all) = (order + 1, moving + ground.len());
@@ -335,4 +330,20 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         // Zero times infinity or NaN is NaN.
         numbers.fold(0.0, |sum, x| sum + 0.0 * x) == 0.0
     }
+}
+
+/// Values of the ground's features, which stand behind those of bodies.
+fn place_ground<const L: usize>(
+    system: &System,
+    moving: usize,
+    place: &mut [LanePlace],
+) -> Vec<LaneVector<L>> {
+    let mut ground = Vec::new();
+    for (feature, place) in system.features.iter().zip(place) {
+        if feature.body == BodyRef::Ground {
+            *place = LanePlace { slot: moving + ground.len(), lane: 0 };
+            ground.push([0, 1, 2].map(|c| [feature.local[c]; L]));
+        }
+    }
+    ground
 }

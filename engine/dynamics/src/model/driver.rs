@@ -1,10 +1,15 @@
 //! Drivers with their motions ready to be evaluated.
 
+use super::error::COSINE;
 use super::reader::ModelReader;
 use super::{BodyRef, ModelError};
 use crate::model::motion::{Curve, VectorCurve};
-use crate::scene::Driver;
+use crate::scene::{Driver, Motion};
 use nalgebra::Vector3;
+use std::f64::consts::PI;
+
+/// Least sine of an angle that is prescribed through its cosine.
+const LEAST_SINE: f64 = 1e-3;
 
 /// A checked driver.
 #[derive(Clone, Debug)]
@@ -118,7 +123,7 @@ impl ModelDriver {
                         reader.local_vector(bodies[0], &reader.unit("vector_i", *vector_i)?),
                         reader.local_vector(bodies[1], &reader.unit("vector_j", *vector_j)?),
                     ],
-                    motion: reader.curve("motion", motion)?,
+                    motion: angle_between(reader, motion)?,
                 }
             }
             Driver::AngleToWorld { body, vector: local, reference, motion, .. } => {
@@ -127,10 +132,41 @@ impl ModelDriver {
                     body,
                     local: vector(body, "vector", *local)?,
                     reference: reader.vector_curve("reference", reference)?,
-                    motion: reader.curve("motion", motion)?,
+                    motion: angle_between(reader, motion)?,
                 }
             }
         };
         Ok(Self { name: driver.name().to_owned(), kind })
     }
+
+    /// The angle at time t if it is prescribed through its cosine, and that tells of it no more: at 0 and π, or beyond where it was at the
+    /// start, on the other side of one of these.
+    pub fn lost_angle(&self, t: f64) -> Option<f64> {
+        let (DriverKind::Cosine { motion, .. } | DriverKind::CosineToWorld { motion, .. }) = &self.kind
+        else {
+            return None;
+        };
+        let [angle, start] = [t, 0.0].map(|t| motion.at(t)[0]);
+        let side = |angle: f64| (angle / PI).floor();
+        (is_along(angle) || side(angle) != side(start)).then_some(angle)
+    }
+}
+
+/// An angle between vectors that does not begin where its cosine tells nothing of it.
+fn angle_between(reader: &ModelReader, motion: &Motion) -> Result<Curve, ModelError> {
+    let curve = reader.curve("motion", motion)?;
+    let angle = curve.at(0.0)[0];
+    if is_along(angle) {
+        let reason = format!(
+            "{COSINE} that begins with {angle} rad: at 0 and pi the cosine does not change with the angle, \
+             and holds nothing"
+        );
+        return Err(reader.wrong("motion", reason));
+    }
+    Ok(curve)
+}
+
+/// Whether vectors at this angle are along each other: rounding ε of its cosine is one of ε/sin² in forces.
+fn is_along(angle: f64) -> bool {
+    libm::sin(angle).abs() < LEAST_SINE
 }

@@ -4,6 +4,11 @@
 const OUTPUTS: &str = "/simulation/outputs";
 /// What is wrong with a formula that can be read, as its reason begins.
 const NO_SERIES: &str = "its formula has no power series";
+/// What is wrong with an angle whose cosine tells nothing of it, as its reason begins.
+pub(super) const COSINE: &str = "it prescribes the cosine of an angle";
+/// What to try with such an angle.
+pub const OTHER_THAN_COSINE: &str = "Prescribe the angle of a joint (angle) or a direction (vector), which hold everywhere, or choose \
+                                     vectors that are at right angles in the middle of the motion.";
 /// What is wrong with a direction.
 pub(super) const NO_LENGTH: &str = "the vector has no length";
 /// What is wrong with a rod.
@@ -245,6 +250,7 @@ impl ModelError {
                  a table instead."
                     .to_owned()
             }
+            Self::Geometry { reason, .. } if reason.starts_with(COSINE) => OTHER_THAN_COSINE.to_owned(),
             Self::Geometry { reason, .. } if reason == NO_LENGTH => {
                 "Give a vector that is not zero, such as [0, 0, 1]: its length does not matter.".to_owned()
             }

@@ -8,9 +8,13 @@ use super::{BodyRef, JointGeometry, ModelBody, ModelError, ModelJoint};
 use crate::scene::{Joint, JointKind};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use std::collections::VecDeque;
+use std::f64::consts::TAU;
 
 /// Greatest angle, displacement or rate of a joint at the start, SI units.
 const MAX_START: f64 = 1e6;
+
+/// Largest part of a turn, rad, that a driver begins beyond whole ones: nearer to half a turn the scene is refused as if there were none.
+const CARRIED: f64 = 2.5;
 
 /// Change of a velocity, m/s and rad/s, relative to its size, below which it counts as kept.
 const KEPT: f64 = 1e-6;
@@ -74,6 +78,27 @@ impl ModelStart {
         }
         let (angle, rate, slide, speed) = (start.angle, start.rate, start.slide, start.speed);
         Ok(Some(Self { joint: reader.index, angle, rate, slide, speed }))
+    }
+}
+
+/// A joint that is driven from some whole turns on, and a part of one, starts there, as if that were given: directors tell nothing of
+/// whole turns.
+pub(super) fn begin_where_driven(
+    driven: &[(usize, f64)],
+    joints: &[ModelJoint],
+    starts: &mut Vec<ModelStart>,
+) {
+    for &(joint, angle) in driven {
+        let given = starts.iter().any(|start| start.joint == joint && start.angle.is_some());
+        let from_stated = angle - joints[joint].stated;
+        let turns = (from_stated / TAU).round() * TAU;
+        if given || turns == 0.0 || (from_stated - turns).abs() > CARRIED || angle.abs() > MAX_START {
+            continue;
+        }
+        match starts.iter_mut().find(|start| start.joint == joint) {
+            Some(start) => start.angle = Some(angle),
+            None => starts.push(ModelStart { angle: Some(angle), ..ModelStart::of(joint) }),
+        }
     }
 }
 

@@ -15,6 +15,8 @@ use triad_dynamics::system::System;
 
 /// How much heavier a body is made that is to keep its velocity.
 const HEAVY: f64 = 1e8;
+/// Angle, rad, by which a joint that counts from elsewhere is told: less are the digits of a stated position.
+const COUNTED_ELSEWHERE: f64 = 1e-6;
 
 /// A body's place after assembly, in the terms in which its author writes it.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -98,7 +100,8 @@ pub fn assemble_if(scene: &Scene, pinned: &[String], wanted: &Wanted) -> Result<
             EngineError::from(ConstraintError::Assembly { joint, with, pointer, violation, moved }).into()
         );
     }
-    let notes = lengths_from_positions(scene).into_iter().collect();
+    mechanism.set_state(0.0, &y);
+    let notes = lengths_from_positions(scene).into_iter().chain(counted_angles(&mechanism)).collect();
     Ok(Assembly { bodies: velocities(scene, pinned, y)?, iterations, violation, left, notes })
 }
 
@@ -125,6 +128,24 @@ fn lengths_from_positions(scene: &Scene) -> Option<String> {
             quoted(&names)
         )
     })
+}
+
+/// Tells the joints whose angles are counted by loads, gears, events or tables, and would be counted from elsewhere in a scene with the
+/// assembled positions.
+fn counted_angles(Mechanism { system, state, .. }: &Mechanism) -> Vec<String> {
+    let joints = &system.model.joints;
+    let counted = system.angle_joints.iter().zip(state.angles()).filter_map(|(name, angle)| {
+        let joint = joints.iter().find(|joint| joint.name == *name)?;
+        let revolute = matches!(joint.geometry, JointGeometry::Revolute { .. });
+        ((angle.value - joint.stated).abs() > COUNTED_ELSEWHERE && revolute).then_some((name, angle.value))
+    });
+    let told = |(name, angle): (&String, f64)| {
+        format!(
+            "the angle of joint \"{name}\" is {angle} rad here: with these positions give it \"stated_angle\": {angle} and no angle in its \
+             \"start\", or loads, gears and events count from elsewhere"
+        )
+    };
+    counted.map(told).collect()
 }
 
 /// A joint that fixes a body to the ground where it starts.

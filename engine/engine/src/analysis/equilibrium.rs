@@ -16,8 +16,12 @@ const STEPS: usize = 300;
 /// Generalized force along a motion, relative to what the forces on bodies that it moves would make of it if they all pointed along
 /// their ways, below which it counts as zero.
 const BALANCED: f64 = 1e-10;
+/// Part of the mechanism's length by which a position that rounding leaves open is told to be so.
+const TOLD: f64 = 1e-6;
 /// Part of the largest force that takes part in a balance which rounding leaves.
 const ROUNDED: f64 = 1e-14;
+/// So many of them may add up.
+const SEVERAL: f64 = 10.0;
 /// Part of what was left before a step that a step which leads on leaves.
 const STALLED: f64 = 0.1;
 /// Stiffness, relative to the largest, below which the search takes none.
@@ -140,6 +144,19 @@ impl Held {
             .all(|(left, carried)| left.abs() <= BALANCED * carried.max(f64::MIN_POSITIVE))
     }
 
+    /// How far what is left moves the bodies, along motions that it does not balance and where it is more than the rounding of the
+    /// forces on bodies, m.
+    fn off_by(&self, Stiffness { along, motions, .. }: &Stiffness) -> f64 {
+        let (left, rounded) = (motions.tr_mul(&self.along), SEVERAL * ROUNDED * self.largest);
+        let unbalanced = left
+            .iter()
+            .zip(self.carried(motions))
+            .zip(along.iter())
+            .filter(|((left, carried), _)| left.abs() > (BALANCED * carried).max(rounded))
+            .map(|((left, _), stiffness)| (left / stiffness).abs());
+        unbalanced.fold(0.0, f64::max)
+    }
+
     /// Work of the forces for each unit of a motion, of which the part counts that the joints allow here.
     fn push(&self, motion: &DVector<f64>, length: f64) -> f64 {
         let mut measured = motion.clone();
@@ -221,6 +238,14 @@ fn found(
         stability::judge(stage, &held.basis, stiffness, &held.carried(&stiffness.motions));
     stage.rest();
     let mut notes: Vec<String> = note.into_iter().collect();
+    let off = held.off_by(stiffness);
+    if off > TOLD * stage.mechanism.system.length {
+        notes.push(format!(
+            "springs are too different to find it: what is left of the forces, {:.1e} N, is the rounding of the stiffest, and moves what the \
+             softest hold by up to {off:.0e} m",
+            held.along.amax()
+        ));
+    }
     if stage.mechanism.system.loads.iter().any(|load| load.dry_friction().is_some()) {
         notes.push("dry friction is left out: where it holds, positions beside this one are positions of rest as well".to_owned());
     }

@@ -17,6 +17,7 @@ use pencil::{Eigen, Pencil, solve};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use steady::Unfelt;
+use triad_dynamics::model::LoadKind;
 use triad_dynamics::state::BodyFrame;
 use triad_linalg::{least_squares, null_and_rest};
 
@@ -138,6 +139,7 @@ pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Mod
     }
     let small = SmallMotions::new(&mut stage, &basis, unfelt.as_ref());
     notes.extend(small.told_of_held());
+    notes.extend(small.told_of_hidden(&stage));
     let length = stage.mechanism.system.length;
     let mut modes: Vec<Mode> = small
         .eigen(&stage)?
@@ -275,6 +277,26 @@ impl SmallMotions {
                 self.held
             )
         })
+    }
+
+    /// What is told of a drift that may be none, as the rounding of a stiff spring hides a soft one.
+    fn told_of_hidden(&self, stage: &Stage) -> Option<String> {
+        if self.pencil.drifts.is_empty() {
+            return None;
+        }
+        let (length, loads) = (stage.mechanism.system.length, &stage.mechanism.system.model.loads);
+        let hidden = loads.iter().find(|load| {
+            let stiffness = match &load.kind {
+                LoadKind::Spring { law, .. } | LoadKind::Slider { law, .. } => law.stiffness,
+                LoadKind::Torsion { law, .. } => law.stiffness / (length * length),
+                LoadKind::Force { .. } | LoadKind::Moment { .. } => 0.0,
+            };
+            stiffness > 0.0 && stiffness < self.stiffless
+        })?;
+        Some(format!(
+            "beside the stiffest spring nothing below {:.0e} N/m is felt: load \"{}\" may hold what is told as a drift",
+            self.stiffless, hidden.name
+        ))
     }
 
     fn eigen(&self, stage: &Stage) -> Result<Vec<Eigen>, AnalysisError> {

@@ -457,3 +457,52 @@ fn turns_are_counted_from_where_joints_were_closed() {
         run.reset();
     }
 }
+
+/// Where a spring is so stiff that rounding of its force would move what another holds, that is told.
+#[test]
+fn an_equilibrium_that_rounding_of_a_stiff_spring_hides_is_told() {
+    let sag = |stiffness: f64| {
+        let body = |name: &str, z: f64| json!({"name": name, "mass": 1, "position": [1, 0, z]});
+        let rail = |name: &str, body: &str, z: f64| json!({"name": name, "type": "prismatic", "body_i": "ground", "body_j": body, "point": [0, 0, z], "axis": [1, 0, 0]});
+        let text = json!({
+            "name": "springs", "gravity": [1, 0, 0], "bodies": [body("a", 0.0), body("b", 1.0)],
+            "joints": [rail("first", "a", 0.0), rail("second", "b", 1.0)],
+            "loads": [
+                {"name": "stiff", "type": "slider", "joint": "first", "stiffness": stiffness},
+                {"name": "soft", "type": "slider", "joint": "second", "stiffness": 1}
+            ]
+        });
+        let found = match equilibrium(&Scene::from_json(&text.to_string()).unwrap()) {
+            Ok(found) => found,
+            Err(error) => return (f64::NAN, error.hint().contains("differ by more than 1e8")),
+        };
+        let told = found.notes.iter().any(|note| note.contains("springs are too different"));
+        (found.bodies[1].position[0] - 1.0, told)
+    };
+    for stiffness in [1.0, 1e3, 1e6, 1e8] {
+        let (found, told) = sag(stiffness);
+        assert!((found - 1.0).abs() < 1e-6 && !told, "{stiffness:e}: {found}, {told}");
+    }
+    for stiffness in [1e10, 1e12, 1e14] {
+        let (found, told) = sag(stiffness);
+        assert!((found - 1.0).abs() < 1e-6 || told, "{stiffness:e}: {found}");
+    }
+}
+
+/// Springs, gears and events count the angles of joints from the stated positions: where these are replaced, the count goes with them.
+#[test]
+fn assembly_tells_the_angles_that_are_counted() {
+    let mut scene = catalogue::scene("n-four-bar:1").unwrap();
+    let joint = scene.joints[0].name.clone();
+    let notes = |scene: &Scene| {
+        let found = assemble(scene, &[]).unwrap();
+        found.notes.into_iter().filter(|note| note.contains("stated_angle")).collect::<Vec<_>>()
+    };
+    let json = json!([{"name": "spring", "type": "torsion", "joint": joint, "stiffness": 50}]);
+    scene.loads = serde_json::from_value(json).unwrap();
+    assert_eq!(notes(&scene), Vec::<String>::new(), "where they are closed nothing is told");
+    let mut value = serde_json::to_value(&scene).unwrap();
+    value["joints"][0]["start"] = json!({"angle": 0.3});
+    let told = notes(&Scene::from_json(&value.to_string()).unwrap());
+    assert!(told.len() == 1 && told[0].contains(&format!("joint \"{joint}\" is 0.")), "{told:?}");
+}

@@ -170,3 +170,41 @@ fn where_other_joints_must_move_it_is_told() {
     near(&spins(&run_of_stated), &[0.0, 0.7, 1.7]);
     assert!(of_changed(&run_of_stated).is_empty(), "{:?}", run_of_stated.notes());
 }
+
+/// Directors tell nothing of whole turns: a driver that begins some turns away does, to gears, screws, springs and events.
+#[test]
+fn whole_turns_of_a_driver_count() {
+    let tau = std::f64::consts::TAU;
+    let turning = |start: f64| json!([{ "name": "motor", "type": "angle", "joint": "a", "motion": { "kind": "ramp", "start": start, "rate": tau } }]);
+    let geared = |ratio: f64, start: f64| {
+        let run = run(&json!({
+            "name": "geared", "gravity": [0, 0, 0],
+            "bodies": [body("wheel", [0.0; 3], 0.0), body("other", [1.0, 0.0, 0.0], 0.0)],
+            "joints": [
+                hinge("a", ["ground", "wheel"], [0.0; 3], Value::Null), hinge("b", ["ground", "other"], [1.0, 0.0, 0.0], Value::Null),
+                { "name": "mesh", "type": "gear", "joints": ["a", "b"], "ratio": ratio }
+            ],
+            "drivers": turning(start),
+            "loads": [{ "name": "spring", "type": "torsion", "joint": "a", "stiffness": 1 }],
+            "events": [{ "name": "twice", "of": { "type": "angle", "joint": "a" }, "value": 2.0 * tau }],
+            "simulation": { "duration": 2 }
+        }));
+        let u = run.frame().bodies[1].u;
+        (libm::atan2(u[1], u[0]), run)
+    };
+    let (angle, mut run_on) = geared(0.5, tau + 0.4);
+    near(&[angle], &[0.5 * 0.4 - 0.5 * tau]);
+    run_on.advance_to(2.0).unwrap();
+    let passed: Vec<f64> = run_on.events().iter().map(|event| event.time).collect();
+    near(&passed, &[1.0 - 0.4 / tau]);
+    assert!(run_on.notes().is_empty(), "{:?}", run_on.notes());
+    // Within half a turn bodies are stated as before, and a given start goes on to count.
+    near(&[geared(0.5, 0.0).0], &[0.0]);
+
+    let screw = run(&json!({
+        "name": "screw", "gravity": [0, 0, 0], "bodies": [body("nut", [0.0; 3], 0.0)],
+        "joints": [{ "name": "a", "type": "screw", "body_i": "ground", "body_j": "nut", "point": [0, 0, 0], "axis": [0, 0, 1], "pitch": 0.1 }],
+        "drivers": turning(3.0 * tau)
+    }));
+    near(&[screw.frame().bodies[0].position[2]], &[0.3]);
+}

@@ -314,3 +314,27 @@ fn a_start_where_branches_meet_is_refused() {
         kinematics(&Scene::from_json(&value.to_string()).unwrap(), Convention::default()).unwrap_err();
     assert!(matches!(&error, AnalysisError::SingularStart { joints } if !joints.is_empty()), "{error}");
 }
+
+/// Forces are in the scale of the masses, and so is what rounding leaves of them: bodies of 1e-14 kg.
+#[test]
+fn light_mechanisms_have_the_torque_of_heavy_ones_by_their_masses() {
+    let bar = FourBar::new([1.0, 3.4, 1.65, 4.0]);
+    let heavy = bar.scene(1.0, 0.1);
+    let (mut light, part) = (heavy.clone(), 2.0f64.powi(-46));
+    let mut value = serde_json::to_value(&light).unwrap();
+    for body in value["bodies"].as_array_mut().unwrap() {
+        body["mass"] = json!(part * body["mass"].as_f64().unwrap());
+        for moment in body["inertia"]["principal"].as_array_mut().unwrap() {
+            *moment = json!(part * moment.as_f64().unwrap());
+        }
+    }
+    light = Scene::from_json(&value.to_string()).unwrap();
+    for (heavy, light) in follow(&heavy).states.iter().zip(&follow(&light).states) {
+        let [expected, found] = [torque(heavy, "motor"), torque(light, "motor") / part];
+        assert!(
+            (found - expected).abs() < 1e-11 * expected.abs().max(1.0),
+            "{}: {found} {expected}",
+            heavy.time
+        );
+    }
+}

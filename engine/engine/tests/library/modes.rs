@@ -338,3 +338,25 @@ fn a_motion_that_is_not_steady_is_refused_with_the_reason() {
     let harmonic = pendulum("[0, 0, -9.81]", r#"{"kind": "harmonic", "amplitude": 1, "frequency": 3}"#);
     assert!(harmonic.contains("\"motor\" does not go on"), "{harmonic}");
 }
+
+/// A mass on a soft spring, where a far stiffer one stands elsewhere: found, or told to be hidden.
+#[test]
+fn a_soft_spring_that_a_stiff_one_hides_is_told() {
+    for stiffness in [1e3, 1e8, 1e12, 1e14] {
+        let rail = |name: &str, body: &str, z: f64| json!({"name": name, "type": "prismatic", "body_i": "ground", "body_j": body, "point": [0, 0, z], "axis": [1, 0, 0]});
+        let text = json!({
+            "name": "springs", "gravity": [0, 0, 0],
+            "bodies": [{"name": "a", "mass": 1}, {"name": "b", "mass": 1, "position": [0, 0, 1]}],
+            "joints": [rail("first", "a", 0.0), rail("second", "b", 1.0)],
+            "loads": [
+                {"name": "stiff", "type": "slider", "joint": "first", "stiffness": stiffness},
+                {"name": "soft", "type": "slider", "joint": "second", "stiffness": 1}
+            ]
+        });
+        let found = modes(&Scene::from_json(&text.to_string()).unwrap(), ModesAbout::Start).unwrap();
+        let right = (TAU * found.modes[0].frequency - 1.0).abs() < 1e-4;
+        let told =
+            found.notes.iter().any(|note| note.contains("load \"soft\" may hold what is told as a drift"));
+        assert!(right != told, "{stiffness:e}: {:?} {:?}", found.modes, found.notes);
+    }
+}

@@ -66,7 +66,7 @@ pub enum Driver {
         /// The angle, rad.
         motion: Motion,
     },
-    /// The angle between a vector of a body and a moving vector of the world through its cosine (AR*).
+    /// The angle between a vector of a body and a moving vector of the world through its cosine (AR*). It cannot pass 0 or π.
     AngleToWorld {
         /// Unique name.
         name: String,
@@ -136,7 +136,7 @@ impl Driver {
         }
     }
 
-    /// The angle between a vector of a body and a moving vector of the world, rad, through its cosine.
+    /// The angle between a vector of a body and a moving vector of the world, rad, through its cosine: it cannot pass 0 or π.
     pub fn angle_to_world(
         name: impl Into<String>,
         body: impl Into<BodyHandle>,

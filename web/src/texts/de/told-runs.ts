@@ -24,6 +24,8 @@ export const toldOfRuns: Record<string, string> = {
     "der Lauf endet bei t = {time} s: Gelenk „{joint}“ ist um {violation} der Größe des Mechanismus offen",
   'the run stops at t = {time} s: joint "{joint}" is open by {violation} of the mechanism\'s size, and with it {with}':
     "der Lauf endet bei t = {time} s: Gelenk „{joint}“ ist um {violation} der Größe des Mechanismus offen und mit ihm {with}",
+  'driver "{driver}" prescribes the cosine of an angle, which at t = {time} s is {angle} rad: it cannot reach 0 or pi, where the cosine does not change with the angle, and holds nothing':
+    "Antrieb „{driver}“ schreibt den Kosinus eines Winkels vor, der bei t = {time} s {angle} rad ist: Er kann 0 und pi nicht erreichen, wo der Kosinus sich mit dem Winkel nicht ändert und nichts hält",
   'nothing determines how fast body "{body}" turns: at t = {time} s {moment} N m turn it about ({x}, {y}, {z}), about which it has no inertia, or next to none, and nothing holds it there':
     "nichts bestimmt, wie schnell Körper „{body}“ sich dreht: Bei t = {time} s drehen ihn {moment} N m um ({x}, {y}, {z}), worum er keine oder fast keine Trägheit hat und nichts ihn hält",
   "the state at t = {time} s is not finite": "der Zustand bei t = {time} s ist nicht endlich",
@@ -187,6 +189,10 @@ export const toldOfRuns: Record<string, string> = {
     "Die Geschwindigkeiten des Anfangs bleiben weg: Sie gehören zu keiner Bewegung, in der alle Körper ihre Plätze in einem System behalten, und die stationäre Bewegung nahe dem Anfang ist die Ruhe",
   "degrees of freedom without inertia that springs hold: {held}; they follow the others at once and have no mode of their own":
     "Freiheitsgrade ohne Trägheit, die Federn halten: {held}; sie folgen den anderen sofort und haben keine eigene Eigenform",
+  "springs are too different to find it: what is left of the forces, {left} N, is the rounding of the stiffest, and moves what the softest hold by up to {off} m":
+    "Die Federn sind zu verschieden, um sie zu finden: Was von den Kräften bleibt, {left} N, ist die Rundung der steifsten und bewegt, was die weichsten halten, um bis zu {off} m",
+  'beside the stiffest spring nothing below {stiffness} N/m is felt: load "{load}" may hold what is told as a drift':
+    "Neben der steifsten Feder ist nichts unter {stiffness} N/m zu spüren: Last „{load}“ hält vielleicht, was als Drift genannt ist",
   "some motion meets no stiffness": "eine Bewegung findet keine Steifigkeit",
   "some forces have no potential, such as those that turn with a body: whether the position is stable is decided by the growth of its small motions":
     "Manche Kräfte haben kein Potential, etwa solche, die sich mit einem Körper drehen: Ob die Lage stabil ist, entscheidet das Anwachsen ihrer kleinen Bewegungen",
@@ -212,12 +218,14 @@ export const toldOfRuns: Record<string, string> = {
     "Singuläre Lagen wurden durchlaufen, in denen andere Zweige beginnen; dem glatten wurde gefolgt. Wo Längen um weniger als ein Millionstel von denen abweichen, die die Lage singulär machen, kann jeder richtig sein",
   'body "{body}" can spin about its axis through {joints}, which moves nothing else: it keeps the {rate} rad/s about it that it starts with, as nothing turns it there':
     "Körper „{body}“ kann sich um seine Achse durch {joints} drehen, was sonst nichts bewegt: Er behält die {rate} rad/s, mit denen er beginnt, denn nichts dreht ihn dort",
+  'the angle of joint "{joint}" is {angle} rad here: with these positions give it "stated_angle": {same} and no angle in its "start", or loads, gears and events count from elsewhere':
+    "Der Winkel von Gelenk „{joint}“ ist hier {angle} rad: Gib ihm mit diesen Lagen „stated_angle“: {same} und keinen Winkel in „start“, sonst zählen Lasten, Zahnräder und Ereignisse von anderswo",
   "the points of {joints} are given in the world: links between them are as long as the stated positions make them, and rounded positions make wrong lengths; only point_i and point_j keep lengths":
     "Die Punkte von {joints} sind in der Welt gegeben: Glieder zwischen ihnen sind so lang, wie die angegebenen Lagen sie machen, und gerundete Lagen machen falsche Längen; nur point_i und point_j erhalten Längen",
 
   // What helps with analyses.
-  "Look whether anything holds that body: a body that falls freely has no equilibrium. Otherwise start nearer to where it comes to rest.":
-    "Sieh nach, ob diesen Körper etwas hält: Ein frei fallender Körper hat kein Gleichgewicht. Sonst beginne näher an seiner Ruhelage.",
+  "Look whether anything holds that body: a body that falls freely has no equilibrium. Make springs alike: where stiffnesses differ by more than 1e8, the rounding of the stiff ones hides the soft ones. Otherwise start nearer to where it comes to rest.":
+    "Sieh nach, ob diesen Körper etwas hält: Ein frei fallender Körper hat kein Gleichgewicht. Mach Federn ähnlicher: Wo Steifigkeiten sich um mehr als 1e8 unterscheiden, verdeckt die Rundung der steifen die weichen. Sonst beginne näher an seiner Ruhelage.",
   'Take those turns away: in place of points on joints of the kind "rod", or of thin rods between spherical joints, let thin rods hang on revolute joints where all moves in a plane, on universal joints where it does not. Or analyse a part of the mechanism as a scene of its own.':
     "Nimm diese Drehungen weg: Statt Punkten an Gelenken der Art „rod“ oder dünnen Stäben zwischen Kugelgelenken lass dünne Stäbe an Drehgelenken hängen, wo sich alles in einer Ebene bewegt, sonst an Kreuzgelenken. Oder untersuche einen Teil des Mechanismus als eigene Szene.",
   "Analyse a part of the mechanism as a scene of its own.":

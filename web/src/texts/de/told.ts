@@ -215,6 +215,8 @@ export const told: Record<string, string> = {
     "Mach die leichten Körper schwerer, oder lass sie weg: Ein Stab ohne Masse zwischen zwei Körpern ist ein Gelenk der Art „rod“.",
   "Give the body a moment of inertia about that axis, let a joint keep it from turning about it, or let the load act in points of the axis.":
     "Gib dem Körper ein Trägheitsmoment um diese Achse, lass ein Gelenk ihn daran hindern, sich um sie zu drehen, oder lass die Last in Punkten der Achse angreifen.",
+  "Prescribe the angle of a joint (angle) or a direction (vector), which hold everywhere, or choose vectors that are at right angles in the middle of the motion.":
+    "Schreib den Winkel eines Gelenks vor (angle) oder eine Richtung (vector), die überall halten, oder wähle Vektoren, die in der Mitte der Bewegung im rechten Winkel stehen.",
   "Look at the last good state: a driver asks for more than the joints allow, two of them contradict each other, joints that hold the same are not aligned, masses or stiffnesses are too different for the tolerance, or the stabilization is too weak.":
     "Sieh dir den letzten guten Zustand an: Ein Antrieb verlangt mehr, als die Gelenke erlauben, zwei widersprechen sich, Gelenke, die dasselbe halten, sind nicht ausgerichtet, Massen oder Steifigkeiten sind zu verschieden für die Toleranz, oder die Stabilisierung ist zu schwach.",
   "Loosen the tolerance, and look at the last good state.":

@@ -36,6 +36,8 @@ const NODES: usize = 7;
 const ASIDE: f64 = 0.02;
 /// Part of the largest multiplier from which a joint takes part in a dead point.
 const INVOLVED: f64 = 1e-3;
+/// The bits of a number that are those of the power of two below it.
+const POWER_OF_TWO: u64 = f64::INFINITY.to_bits();
 
 /// A motion without masses, and the mechanism held at its current moment.
 #[derive(Debug)]
@@ -296,8 +298,11 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
 /// A model with its joints and drivers alone: bodies of one mass and one inertia, no weight and no loads.
 fn bare(mut model: Model) -> Model {
     let length = System::new(model.clone()).length;
+    // A power of two near the masses: what rounding leaves of directors is a force in their scale, and nothing else changes.
+    let heaviest = model.bodies.iter().fold(f64::MIN_POSITIVE, |most, body| most.max(body.mass));
+    let mass = f64::from_bits(heaviest.to_bits() & POWER_OF_TWO);
     for body in &mut model.bodies {
-        (body.mass, body.principal) = (1.0, Vector3::repeat(length * length));
+        (body.mass, body.principal) = (mass, Vector3::repeat(mass * length * length));
     }
     model.gravity = Vector3::zeros();
     // Springs about joints stay, without force: whole turns of their angles are counted, for their moments.
