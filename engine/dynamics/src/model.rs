@@ -36,6 +36,7 @@ pub use placement::ModelStart;
 
 use crate::scene::{ConstraintMethod, Driver, Event, Load, Marker, Scene, Settings, WrittenScene};
 use nalgebra::Vector3;
+use placement::DrivenFrom;
 use reader::ModelReader;
 use std::collections::HashMap;
 
@@ -121,7 +122,8 @@ impl Model {
         // Joints and drivers share one space of names: both label rows.
         let mut row_names = HashMap::new();
         let (joints, mut starts) = read_joints(scene, &names, &bodies, &mut row_names, &mut notes)?;
-        placement::begin_where_driven(&driven_from(scene, &names, &bodies, &joints), &joints, &mut starts);
+        let driven = driven_from(scene, &names, &bodies, &joints);
+        placement::begin_where_driven(&driven, &joints, &mut starts, &mut notes);
         meshing::pass_on(&joints, &mut starts)?;
         placement::place(&mut bodies, &joints, &starts, &mut notes);
         let reader = |list, index, name| ModelReader {
@@ -172,7 +174,7 @@ fn driven_from(
     names: &HashMap<String, usize>,
     bodies: &[ModelBody],
     joints: &[ModelJoint],
-) -> Vec<(usize, f64)> {
+) -> Vec<DrivenFrom> {
     let duration = scene.simulation.duration;
     let angles = scene.drivers.iter().enumerate().filter_map(|(index, written)| {
         if !matches!(written, Driver::Angle { .. }) {
@@ -181,7 +183,9 @@ fn driven_from(
         let reader =
             ModelReader { list: "drivers", index, name: written.name(), names, bodies, joints, duration };
         match ModelDriver::new(written, &reader).ok()?.kind {
-            DriverKind::Angle { joint, motion } => Some((joint, motion.at(0.0)[0])),
+            DriverKind::Angle { joint, motion } => {
+                Some(DrivenFrom { driver: written.name().to_owned(), joint, angle: motion.at(0.0)[0] })
+            }
             _ => None,
         }
     });

@@ -335,7 +335,8 @@ impl Simulation {
 
     /// Measures the constraints at the end of the last step where the integrator has not proved that they hold.
     fn check_step(&mut self) -> Result<(), ConstraintError> {
-        self.mechanism.check_angles(self.integrator.last().t)?;
+        let step = self.integrator.last();
+        self.mechanism.check_angles([step.t - step.h, step.t])?;
         if self.model().settings.skip.checks && self.integrator.proves_constraints() {
             return Ok(());
         }

@@ -247,16 +247,15 @@ impl Mechanism {
         }))
     }
 
-    /// Refuses angles that their cosines prescribe no longer.
+    /// Refuses a step in which an angle gets where its cosine prescribes it no longer.
     ///
     /// # Errors
     ///
     /// [`ConstraintError::AngleLost`].
-    pub fn check_angles(&self, time: f64) -> Result<(), ConstraintError> {
-        let drivers = &self.system.model.drivers;
-        let lost =
-            drivers.iter().enumerate().find_map(|(k, driver)| Some((k, driver, driver.lost_angle(time)?)));
-        lost.map_or(Ok(()), |(k, driver, angle)| {
+    pub fn check_angles(&self, step: [f64; 2]) -> Result<(), ConstraintError> {
+        let drivers = self.system.model.drivers.iter().enumerate();
+        let mut lost = drivers.filter_map(|(k, driver)| Some((k, driver, driver.lost_angle_between(step)?)));
+        lost.next().map_or(Ok(()), |(k, driver, (time, angle))| {
             let (driver, pointer) = (driver.name.clone(), format!("/drivers/{k}"));
             Err(ConstraintError::AngleLost { time, driver, pointer, angle })
         })

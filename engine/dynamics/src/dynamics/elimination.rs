@@ -67,6 +67,8 @@ pub struct BodySolve {
     pub inverse: Matrix3<f64>,
     /// Solution ξ̇ = (v̇, ω̇).
     pub twist: [Vector3<f64>; 2],
+    /// What the joints' part of ω̇ is where ω̇ is zero: two directors turn by their particular accelerations alone, too.
+    at_zero: Vector3<f64>,
     /// ω̇ for which the regularizing inertia has been taken out so far.
     returned: Vector3<f64>,
 }
@@ -314,8 +316,9 @@ impl Elimination {
     /// ξ ← ξ₀, the accelerations without joints.
     fn set_free_twists(&mut self, system: &System) {
         for (state, body) in self.bodies.iter_mut().zip(&system.bodies) {
-            state.twist = [state.wrench[0] / body.mass, state.inverse * state.wrench[1]];
-            state.returned = Vector3::zeros();
+            let moment = state.wrench[1] + state.at_zero * body.regularizing_inertia;
+            state.twist = [state.wrench[0] / body.mass, state.inverse * moment];
+            state.returned = state.at_zero;
         }
     }
 

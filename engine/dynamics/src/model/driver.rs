@@ -10,6 +10,9 @@ use std::f64::consts::PI;
 
 /// Least sine of an angle that is prescribed through its cosine.
 const LEAST_SINE: f64 = 1e-3;
+/// Parts of a step in which such an angle is looked at for where it turns back, which so many bisections find.
+const LOOKED_AT: u32 = 8;
+const BISECTIONS: u32 = 40;
 
 /// A checked driver.
 #[derive(Clone, Debug)]
@@ -137,6 +140,29 @@ impl ModelDriver {
             }
         };
         Ok(Self { name: driver.name().to_owned(), kind })
+    }
+
+    /// As [`Self::lost_angle`] between two times: also where the angle turns back. Returns the time with it.
+    pub fn lost_angle_between(&self, [from, to]: [f64; 2]) -> Option<(f64, f64)> {
+        let (DriverKind::Cosine { motion, .. } | DriverKind::CosineToWorld { motion, .. }) = &self.kind
+        else {
+            return None;
+        };
+        let lost = |t: f64| self.lost_angle(t).map(|angle| (t, angle));
+        let part = |k: u32| from + (to - from) * f64::from(k) / f64::from(LOOKED_AT);
+        let turning = |k: u32| {
+            let [mut before, mut after] = [part(k), part(k + 1)];
+            let rate = |t: f64| motion.at(t)[1];
+            if rate(before) * rate(after) >= 0.0 {
+                return None;
+            }
+            for _ in 0..BISECTIONS {
+                let middle = 0.5 * (before + after);
+                if rate(before) * rate(middle) > 0.0 { before = middle } else { after = middle }
+            }
+            lost(after)
+        };
+        (0..LOOKED_AT).find_map(|k| turning(k).or_else(|| lost(part(k + 1))))
     }
 
     /// The angle at time t if it is prescribed through its cosine, and that tells of it no more: at 0 and π, or beyond where it was at the

@@ -81,23 +81,38 @@ impl ModelStart {
     }
 }
 
+/// A joint that a driver turns, and the angle from which on.
+pub(super) struct DrivenFrom {
+    pub driver: String,
+    pub joint: usize,
+    pub angle: f64,
+}
+
 /// A joint that is driven from some whole turns on, and a part of one, starts there, as if that were given: directors tell nothing of
-/// whole turns.
+/// whole turns. What is given instead is told.
 pub(super) fn begin_where_driven(
-    driven: &[(usize, f64)],
+    driven: &[DrivenFrom],
     joints: &[ModelJoint],
     starts: &mut Vec<ModelStart>,
+    notes: &mut Vec<String>,
 ) {
-    for &(joint, angle) in driven {
-        let given = starts.iter().any(|start| start.joint == joint && start.angle.is_some());
-        let from_stated = angle - joints[joint].stated;
-        let turns = (from_stated / TAU).round() * TAU;
-        if given || turns == 0.0 || (from_stated - turns).abs() > CARRIED || angle.abs() > MAX_START {
+    for DrivenFrom { driver, joint, angle } in driven {
+        let at = starts.iter().position(|start| start.joint == *joint);
+        let given = at.and_then(|at| starts[at].angle);
+        let away = angle - given.unwrap_or(joints[*joint].stated);
+        let turns = (away / TAU).round() * TAU;
+        if turns == 0.0 || (away - turns).abs() > CARRIED || angle.abs() > MAX_START {
             continue;
         }
-        match starts.iter_mut().find(|start| start.joint == joint) {
-            Some(start) => start.angle = Some(angle),
-            None => starts.push(ModelStart { angle: Some(angle), ..ModelStart::of(joint) }),
+        if let Some(given) = given {
+            notes.push(format!(
+                "joint \"{}\": {given} rad are given for the start, but driver \"{driver}\" prescribes {angle} rad there",
+                joints[*joint].name
+            ));
+        }
+        match at {
+            Some(at) => starts[at].angle = Some(*angle),
+            None => starts.push(ModelStart { angle: Some(*angle), ..ModelStart::of(*joint) }),
         }
     }
 }

@@ -176,12 +176,12 @@ fn where_other_joints_must_move_it_is_told() {
 fn whole_turns_of_a_driver_count() {
     let tau = std::f64::consts::TAU;
     let turning = |start: f64| json!([{ "name": "motor", "type": "angle", "joint": "a", "motion": { "kind": "ramp", "start": start, "rate": tau } }]);
-    let geared = |ratio: f64, start: f64| {
+    let geared_from = |ratio: f64, start: f64, given: Value| {
         let run = run(&json!({
             "name": "geared", "gravity": [0, 0, 0],
             "bodies": [body("wheel", [0.0; 3], 0.0), body("other", [1.0, 0.0, 0.0], 0.0)],
             "joints": [
-                hinge("a", ["ground", "wheel"], [0.0; 3], Value::Null), hinge("b", ["ground", "other"], [1.0, 0.0, 0.0], Value::Null),
+                hinge("a", ["ground", "wheel"], [0.0; 3], given), hinge("b", ["ground", "other"], [1.0, 0.0, 0.0], Value::Null),
                 { "name": "mesh", "type": "gear", "joints": ["a", "b"], "ratio": ratio }
             ],
             "drivers": turning(start),
@@ -192,14 +192,22 @@ fn whole_turns_of_a_driver_count() {
         let u = run.frame().bodies[1].u;
         (libm::atan2(u[1], u[0]), run)
     };
+    let geared = |ratio: f64, start: f64| geared_from(ratio, start, Value::Null);
     let (angle, mut run_on) = geared(0.5, tau + 0.4);
     near(&[angle], &[0.5 * 0.4 - 0.5 * tau]);
     run_on.advance_to(2.0).unwrap();
     let passed: Vec<f64> = run_on.events().iter().map(|event| event.time).collect();
     near(&passed, &[1.0 - 0.4 / tau]);
     assert!(run_on.notes().is_empty(), "{:?}", run_on.notes());
-    // Within half a turn bodies are stated as before, and a given start goes on to count.
+    // Within half a turn bodies are stated as before.
     near(&[geared(0.5, 0.0).0], &[0.0]);
+    // What is given instead is told.
+    let (angle, given) = geared_from(0.5, tau + 0.4, json!({ "angle": 0.1 }));
+    near(&[angle], &[0.5 * 0.4 - 0.5 * tau]);
+    let told = given.notes().iter().filter(|note| {
+        note.contains("0.1 rad are given for the start, but driver \"motor\" prescribes 6.68")
+    });
+    assert_eq!(told.count(), 1, "{:?}", given.notes());
 
     let screw = run(&json!({
         "name": "screw", "gravity": [0, 0, 0], "bodies": [body("nut", [0.0; 3], 0.0)],
@@ -207,4 +215,28 @@ fn whole_turns_of_a_driver_count() {
         "drivers": turning(3.0 * tau)
     }));
     near(&[screw.frame().bodies[0].position[2]], &[0.3]);
+}
+
+/// An angle whose cosine is prescribed ends the run where it comes to zero, also where it turns back there within a step.
+#[test]
+fn an_angle_that_turns_back_at_zero_ends_the_run() {
+    for way in [IntegratorKind::Taylor, IntegratorKind::Dop853] {
+        for (formula, ends) in [("0.5*(1-2*t)^2", true), ("0.5*(1-2*t)^2+0.01", false), ("0.5-t", true)] {
+            let written = json!({
+                "name": "held", "bodies": [{ "name": "arm", "mass": 1, "inertia": { "principal": [0.01, 0.1, 0.1] }, "center_of_mass": [0.5, 0, 0],
+                    "orientation": { "axis": [0, 0, 1], "angle": 0.5 } }],
+                "joints": [hinge("pin", ["ground", "arm"], [0.0; 3], Value::Null)],
+                "drivers": [{ "name": "held", "type": "angle-cosine", "body_i": "ground", "vector_i": [1, 0, 0], "body_j": "arm", "vector_j": [1, 0, 0],
+                    "motion": { "kind": "expression", "value": formula } }],
+                "simulation": { "duration": 1, "integrator": way.to_string(), "tolerance": 1e-5 }
+            });
+            let mut run = run(&written);
+            let result = run.advance_to(1.0);
+            assert_eq!(result.is_err(), ends, "{way} {formula}");
+            if let Err(error) = result {
+                assert_eq!(error.code(), "angle-lost", "{way} {formula}: {error}");
+                assert!(run.time() < 0.5, "{way} {formula}: {}", run.time());
+            }
+        }
+    }
 }

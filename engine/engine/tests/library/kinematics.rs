@@ -320,7 +320,7 @@ fn a_start_where_branches_meet_is_refused() {
 fn light_mechanisms_have_the_torque_of_heavy_ones_by_their_masses() {
     let bar = FourBar::new([1.0, 3.4, 1.65, 4.0]);
     let heavy = bar.scene(1.0, 0.1);
-    let (mut light, part) = (heavy.clone(), 2.0f64.powi(-46));
+    let (mut light, part) = (heavy.clone(), libm::pow(2.0, -46.0));
     let mut value = serde_json::to_value(&light).unwrap();
     for body in value["bodies"].as_array_mut().unwrap() {
         body["mass"] = json!(part * body["mass"].as_f64().unwrap());

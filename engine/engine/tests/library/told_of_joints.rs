@@ -83,8 +83,12 @@ fn a_start_that_another_one_or_a_driver_replaces_is_told() {
     }
     let told = told_of_starts(&[json!({ "rate": 5.0 }), none()], ramp(0.0, 5.4), false);
     assert_eq!(told, by_driver("5 rad/s", "5.4 rad/s"));
-    // What agrees, whole turns and rounding aside.
-    for given in [0.5, 0.5 + std::f64::consts::TAU, 0.500_000_3] {
+    // Whole turns count.
+    let given = 0.5 + std::f64::consts::TAU;
+    let told = told_of_starts(&[json!({ "angle": given }), none()], ramp(0.5, 2.0), false);
+    assert_eq!(told, by_driver(&format!("{given} rad"), "0.5 rad"));
+    // What agrees, rounding aside.
+    for given in [0.5, 0.500_000_3] {
         let told = told_of_starts(&[json!({ "angle": given, "rate": 2.0 }), none()], ramp(0.5, 2.0), false);
         assert!(told.is_empty(), "{told:?}");
     }

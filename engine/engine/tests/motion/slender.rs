@@ -5,7 +5,7 @@
 use nalgebra::{Rotation3, Vector3};
 use serde_json::{Value, json};
 use triad_engine::run::{Frame, Simulation};
-use triad_engine::scene::{IntegratorKind, Scene};
+use triad_engine::scene::{Coordinates, IntegratorKind, Scene};
 
 const WAYS: [IntegratorKind; 3] = [IntegratorKind::Taylor, IntegratorKind::Dop853, IntegratorKind::Radau];
 
@@ -103,8 +103,15 @@ fn a_free_rod_whose_tensor_is_rounded_turns() {
 
 /// A scene to 5 s by rows of 0.25 s, each looked at with the largest error of angular velocities that has been told.
 fn rows(value: &Value, way: IntegratorKind, look: impl Fn(f64, &Frame, f64)) {
-    let scene = Scene::from_json(&value.to_string()).unwrap().integrator(way);
-    let mut run = Simulation::new(&scene).unwrap();
+    for coordinates in [Coordinates::Full, Coordinates::Reduced] {
+        let mut scene = Scene::from_json(&value.to_string()).unwrap().integrator(way);
+        scene.coordinates = coordinates;
+        rows_of(&scene, way, &look);
+    }
+}
+
+fn rows_of(scene: &Scene, way: IntegratorKind, look: impl Fn(f64, &Frame, f64)) {
+    let mut run = Simulation::new(scene).unwrap();
     let mut told = 0.0f64;
     for row in 0..=20 {
         let time = 0.25 * f64::from(row);

@@ -17,7 +17,8 @@ impl Elimination {
         let left = |body: usize| {
             let (solve, regularizing) = (&self.bodies[body], system.bodies[body].regularizing_inertia);
             let added = solve.twist[1] - solve.returned;
-            let goes_on = added.norm_squared() > least * added.dot(&solve.twist[1]).abs();
+            let found = solve.twist[1] - solve.at_zero;
+            let goes_on = added.norm_squared() > least * added.dot(&found).abs();
             let left = added * regularizing;
             (regularizing > 0.0 && goes_on && left.norm() > LEFT * self.size_of_loads(system, body))
                 .then_some((body, left))

@@ -42,6 +42,7 @@ impl Elimination {
             let moment: Vector3<f64> =
                 (0..3).map(|k| at.q.e[k].cross(&(force.e[k] - particular[k] * body.ibar[k]))).sum();
             solve.wrench = [force.r, moment];
+            solve.at_zero = Vector3::zeros();
         }
         for place in 0..system.changing {
             let BodyRef::Moving(body) = system.features[place].body else {

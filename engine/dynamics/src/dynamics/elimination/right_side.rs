@@ -43,6 +43,9 @@ impl Elimination {
                 moment += at.q.e[k].cross(&p);
             }
             solve.wrench = [solve.force.r, moment];
+            let turns = velocity_terms && body.coordinates == Coordinates::Reduced;
+            let turned = |k: usize| at.q.e[k].cross(&particular[k]) * -0.5;
+            solve.at_zero = if turns { (0..3).map(turned).sum() } else { Vector3::zeros() };
         }
         for (particular, feature) in self.particular[..system.moving].iter_mut().zip(&system.features) {
             if let BodyRef::Moving(body) = feature.body {
