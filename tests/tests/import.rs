@@ -18,6 +18,15 @@ fn left_out<'a>(told: &'a Value, key: &str) -> Vec<(u64, &'a str)> {
     items.iter().map(|item| (item["line"].as_u64().unwrap(), item[key].as_str().unwrap())).collect()
 }
 
+/// What is told of the import of a robot with a side-car, both as text.
+fn imported(robot: &str, side_car: &str) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let [urdf, with] = ["r.urdf", "with.json"].map(|name| folder.path().join(name));
+    std::fs::write(&urdf, robot).unwrap();
+    std::fs::write(&with, side_car).unwrap();
+    run_json(&["import", urdf.to_str().unwrap(), "--with", with.to_str().unwrap()]).1
+}
+
 #[test]
 fn an_arm_becomes_a_scene_that_runs_and_what_is_left_out_is_told_with_its_line() {
     let (code, told) = run_json(&["import", &data("arm.urdf")]);
@@ -176,11 +185,7 @@ fn starts_of_joints_that_one_number_does_not_place_are_told() {
 <joint name="fl" type="floating"><parent link="base"/><child link="a"/></joint>
 <joint name="fx" type="fixed"><parent link="a"/><child link="b"/></joint>
 </robot>"#;
-    let folder = tempfile::tempdir().unwrap();
-    let [urdf, with] = ["r.urdf", "with.json"].map(|name| folder.path().join(name));
-    std::fs::write(&urdf, robot).unwrap();
-    std::fs::write(&with, r#"{"positions": {"fl": 0.3, "fx": 1}, "velocities": {"fl": 2}}"#).unwrap();
-    let (_, told) = run_json(&["import", urdf.to_str().unwrap(), "--with", with.to_str().unwrap()]);
+    let told = imported(robot, r#"{"positions": {"fl": 0.3, "fx": 1}, "velocities": {"fl": 2}}"#);
     let left = left_out(&told, "what");
     let starts: Vec<&str> =
         left.iter().map(|(_, what)| *what).filter(|what| what.contains("at the start")).collect();
@@ -197,9 +202,6 @@ fn the_inertia_of_a_part_without_mass_is_told_to_be_left_out() {
 <joint name="j" type="revolute"><parent link="base"/><child link="a"/><axis xyz="0 1 0"/></joint>
 <joint name="k" type="fixed"><parent link="a"/><child link="rotor"/></joint>
 </robot>"#;
-    let folder = tempfile::tempdir().unwrap();
-    let urdf = folder.path().join("rotor.urdf");
-    std::fs::write(&urdf, robot).unwrap();
-    let (_, told) = run_json(&["import", urdf.to_str().unwrap()]);
+    let told = imported(robot, "{}");
     assert!(left_out(&told, "what").contains(&(4, "it has no mass: its inertia is left out")), "{told:#}");
 }

@@ -33,6 +33,7 @@ pub use load::{ForceLaw, LoadKind, ModelLoad};
 pub use marker::ModelMarker;
 pub use output::wants_joint;
 pub use placement::ModelStart;
+pub(crate) use placement::driven_instead;
 
 use crate::scene::{ConstraintMethod, Driver, Event, Load, Marker, Scene, Settings, WrittenScene};
 use nalgebra::Vector3;

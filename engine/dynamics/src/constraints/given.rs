@@ -1,6 +1,6 @@
 //! What is given of joints for the start, and what an assembled start has of it.
 
-use crate::model::{BodyRef, DriverKind, Model, ModelDriver, ModelJoint};
+use crate::model::{BodyRef, DriverKind, Model, ModelDriver, ModelJoint, driven_instead};
 use crate::state::{self, BodyFrame, nearest};
 use crate::system::System;
 use nalgebra::{Matrix3, Vector3};
@@ -103,10 +103,7 @@ pub(super) fn lost(system: &System, y: &[f64]) -> Vec<String> {
             }
             let (name, found) = (&joint.name, up_to(found, off));
             told.push(match driver_of(&model, start.joint, turning) {
-                Some(driver) => format!(
-                    "joint \"{name}\": {given} {unit} are given for the start, but driver \"{}\" prescribes {found} {unit} there",
-                    driver.name
-                ),
+                Some(driver) => driven_instead(name, given, &driver.name, found, unit),
                 None => format!(
                     "joint \"{name}\": {given} {unit} are given for the start, but all that is given together leaves {found} {unit}"
                 ),

@@ -254,7 +254,7 @@ impl Mechanism {
     /// [`ConstraintError::AngleLost`].
     pub fn check_angles(&self, step: [f64; 2]) -> Result<(), ConstraintError> {
         let drivers = self.system.model.drivers.iter().enumerate();
-        let mut lost = drivers.filter_map(|(k, driver)| Some((k, driver, driver.lost_angle_between(step)?)));
+        let mut lost = drivers.filter_map(|(k, driver)| Some((k, driver, driver.lost_angle(step)?)));
         lost.next().map_or(Ok(()), |(k, driver, (time, angle))| {
             let (driver, pointer) = (driver.name.clone(), format!("/drivers/{k}"));
             Err(ConstraintError::AngleLost { time, driver, pointer, angle })

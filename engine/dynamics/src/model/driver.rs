@@ -142,40 +142,38 @@ impl ModelDriver {
         Ok(Self { name: driver.name().to_owned(), kind })
     }
 
-    /// As [`Self::lost_angle`] between two times: also where the angle turns back. Returns the time with it.
-    pub fn lost_angle_between(&self, [from, to]: [f64; 2]) -> Option<(f64, f64)> {
+    /// Where an angle that is prescribed through its cosine gets in a step, also by turning back within it, where that tells of it no more:
+    /// the time and the angle.
+    pub fn lost_angle(&self, [from, to]: [f64; 2]) -> Option<(f64, f64)> {
         let (DriverKind::Cosine { motion, .. } | DriverKind::CosineToWorld { motion, .. }) = &self.kind
         else {
             return None;
         };
-        let lost = |t: f64| self.lost_angle(t).map(|angle| (t, angle));
-        let part = |k: u32| from + (to - from) * f64::from(k) / f64::from(LOOKED_AT);
-        let turning = |k: u32| {
-            let [mut before, mut after] = [part(k), part(k + 1)];
-            let rate = |t: f64| motion.at(t)[1];
-            if rate(before) * rate(after) >= 0.0 {
-                return None;
-            }
-            for _ in 0..BISECTIONS {
-                let middle = 0.5 * (before + after);
-                if rate(before) * rate(middle) > 0.0 { before = middle } else { after = middle }
-            }
-            lost(after)
-        };
-        (0..LOOKED_AT).find_map(|k| turning(k).or_else(|| lost(part(k + 1))))
-    }
-
-    /// The angle at time t if it is prescribed through its cosine, and that tells of it no more: at 0 and π, or beyond where it was at the
-    /// start, on the other side of one of these.
-    pub fn lost_angle(&self, t: f64) -> Option<f64> {
-        let (DriverKind::Cosine { motion, .. } | DriverKind::CosineToWorld { motion, .. }) = &self.kind
-        else {
-            return None;
-        };
-        let [angle, start] = [t, 0.0].map(|t| motion.at(t)[0]);
         let side = |angle: f64| (angle / PI).floor();
-        (is_along(angle) || side(angle) != side(start)).then_some(angle)
+        let start = side(motion.at(0.0)[0]);
+        let lost = |t: f64| {
+            let angle = motion.at(t)[0];
+            (is_along(angle) || side(angle) != start).then_some((t, angle))
+        };
+        let part = |k: u32| from + (to - from) * f64::from(k) / f64::from(LOOKED_AT);
+        (0..LOOKED_AT).find_map(|k| {
+            let within = [part(k), part(k + 1)];
+            turning_point(motion, within).and_then(lost).or_else(|| lost(within[1]))
+        })
     }
+}
+
+/// When a motion turns back between two times, if its rates there differ in sign.
+fn turning_point(motion: &Curve, [mut before, mut after]: [f64; 2]) -> Option<f64> {
+    let rate = |t: f64| motion.at(t)[1];
+    if rate(before) * rate(after) >= 0.0 {
+        return None;
+    }
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (before + after);
+        if rate(before) * rate(middle) > 0.0 { before = middle } else { after = middle }
+    }
+    Some(after)
 }
 
 /// An angle between vectors that does not begin where its cosine tells nothing of it.

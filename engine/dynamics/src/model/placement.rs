@@ -9,6 +9,7 @@ use crate::scene::{Joint, JointKind};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
+use std::fmt::Display;
 
 /// Greatest angle, displacement or rate of a joint at the start, SI units.
 const MAX_START: f64 = 1e6;
@@ -105,16 +106,26 @@ pub(super) fn begin_where_driven(
             continue;
         }
         if let Some(given) = given {
-            notes.push(format!(
-                "joint \"{}\": {given} rad are given for the start, but driver \"{driver}\" prescribes {angle} rad there",
-                joints[*joint].name
-            ));
+            notes.push(driven_instead(&joints[*joint].name, given, driver, angle, "rad"));
         }
         match at {
             Some(at) => starts[at].angle = Some(*angle),
             None => starts.push(ModelStart { angle: Some(*angle), ..ModelStart::of(*joint) }),
         }
     }
+}
+
+/// That a driver prescribes something else than is given of a joint for the start.
+pub(crate) fn driven_instead(
+    joint: &str,
+    given: f64,
+    driver: &str,
+    found: impl Display,
+    unit: &str,
+) -> String {
+    format!(
+        "joint \"{joint}\": {given} {unit} are given for the start, but driver \"{driver}\" prescribes {found} {unit} there"
+    )
 }
 
 /// How far a body was carried from where its author states it, and how it moves.

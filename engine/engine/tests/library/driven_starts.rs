@@ -240,3 +240,29 @@ fn an_angle_that_turns_back_at_zero_ends_the_run() {
         }
     }
 }
+
+/// The row of a driven angle holds half a turn away as well: such a start would drive everything the wrong way round.
+#[test]
+fn a_driver_that_begins_half_a_turn_from_the_bodies_is_refused() {
+    let started = |angle: f64| {
+        let text = format!(
+            r#"{{"name": "crank", "gravity": [0, 0, 0], "bodies": [{{"name": "crank", "mass": 1, "center_of_mass": [0.5, 0, 0],
+                "inertia": {{"principal": [0.01, 0.02, 0.02]}}}}], "joints": [{{"name": "pin", "type": "revolute", "body_i": "ground",
+                "body_j": "crank", "point": [0, 0, 0], "axis": [0, 0, 1]}}], "drivers": [{{"type": "angle", "name": "motor",
+                "joint": "pin", "motion": {{"kind": "ramp", "start": {angle}, "rate": 1}}}}]}}"#
+        );
+        Simulation::new(&Scene::from_json(&text).unwrap()).map(|run| run.frame().bodies[0].u)
+    };
+    for near in [0.1, -0.1, 6.2, 12.5] {
+        let u = started(near).unwrap();
+        assert!(
+            (u[0] - libm::cos(near)).abs() < 1e-9 && (u[1] - libm::sin(near)).abs() < 1e-9,
+            "{near}: {u:?}"
+        );
+    }
+    for far in [3.0, 3.2, -3.1, 9.4] {
+        let refused = started(far).unwrap_err();
+        assert_eq!(refused.code(), "start-too-far");
+        assert!(refused.to_string().contains("driver \"motor\""), "{refused}");
+    }
+}

@@ -4,6 +4,7 @@
 mod common;
 
 mod analyses;
+mod assembly;
 mod bounds;
 mod catalogue;
 mod counting;

@@ -43,7 +43,8 @@ impl Elimination {
                 moment += at.q.e[k].cross(&p);
             }
             solve.wrench = [solve.force.r, moment];
-            let turns = velocity_terms && body.coordinates == Coordinates::Reduced;
+            let reduced = body.coordinates == Coordinates::Reduced;
+            let turns = velocity_terms && reduced && body.regularizing_inertia > 0.0;
             let turned = |k: usize| at.q.e[k].cross(&particular[k]) * -0.5;
             solve.at_zero = if turns { (0..3).map(turned).sum() } else { Vector3::zeros() };
         }
