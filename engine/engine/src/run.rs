@@ -275,6 +275,11 @@ impl Simulation {
             let balance = self.mechanism.check_balance(last.t, &last.y);
             balance.map_err(|error| self.left_constraints(error))?;
         }
+        if self.seen.hardly_inert.is_none() && self.mechanism.system.regularizes_inertia() {
+            let last = self.integrator.last();
+            let bodies = self.mechanism.hardly_inert(last.t, &last.y);
+            self.seen.hardly_inert = (!bodies.is_empty()).then_some((last.t, bodies));
+        }
         self.seen.step(&self.mechanism.system, self.integrator.last(), self.work);
         self.find_events();
         if !self.model().settings.skip.reports {

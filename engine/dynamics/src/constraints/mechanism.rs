@@ -110,6 +110,18 @@ impl Mechanism {
         self.system.regularizes_inertia() && turns()
     }
 
+    /// The bodies that move together at a state with next to no inertia: see [`Elimination::hardly_inert`]. Counters stay.
+    pub fn hardly_inert(&mut self, t: f64, y: &[f64]) -> Vec<usize> {
+        self.evaluate_aside(t, y);
+        self.elimination.hardly_inert()
+    }
+
+    fn evaluate_aside(&mut self, t: f64, y: &[f64]) {
+        let counters = self.elimination.counters;
+        self.accelerations(t, y);
+        self.elimination.counters = counters;
+    }
+
     /// Refuses a state at which something turns a body about an axis about which it has no inertia and nothing holds it: what is computed
     /// there is no acceleration. Counters stay.
     ///
@@ -117,9 +129,7 @@ impl Mechanism {
     ///
     /// [`ConstraintError::NothingHolds`].
     pub fn check_balance(&mut self, t: f64, y: &[f64]) -> Result<(), ConstraintError> {
-        let counters = self.elimination.counters;
-        self.accelerations(t, y);
-        self.elimination.counters = counters;
+        self.evaluate_aside(t, y);
         let Some((body, left)) = self.elimination.out_of_balance(&self.system) else { return Ok(()) };
         let moment = left.norm();
         Err(ConstraintError::NothingHolds {

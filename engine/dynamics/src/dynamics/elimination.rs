@@ -27,6 +27,7 @@ use crate::dynamics::proximal::{PROXIMAL_STEPS, Proximal};
 use crate::model::CustomLoadError;
 use crate::state::{AppliedForces, State};
 use crate::system::System;
+use crate::system::body::RigidBody;
 use crate::system::index::{ConstraintId, IncidenceId, SolverRow};
 use crate::system::natural::NaturalCoordinates;
 use friction::Frictions;
@@ -104,6 +105,8 @@ pub struct Elimination {
     regularizes_inertia: bool,
     /// How the effect of that was taken out of the last solution.
     proximal: Proximal,
+    /// How many steps of that the bodies ask for that nothing joins to others: they are in no multiplier.
+    fewest_steps: usize,
     /// Dry friction, if there is any.
     frictions: Option<Box<Frictions>>,
     /// The solver rows that depend on others at every state.
@@ -137,7 +140,8 @@ impl Elimination {
             resolving: false,
             pivots: Pivots::new(system),
             regularizes_inertia: system.regularizes_inertia(),
-            proximal: Proximal::begin(0.0),
+            proximal: Proximal::begin(0.0, 0),
+            fewest_steps: fewest_steps(system),
             frictions: (!system.frictions.is_empty()).then(|| Box::new(Frictions::new(system))),
             dependent: Vec::new(),
             plane: None,
@@ -288,7 +292,7 @@ impl Elimination {
             (false, true) => REFINEMENTS,
             (false, false) => 0,
         };
-        self.proximal = Proximal::begin(size(&self.residual));
+        self.proximal = Proximal::begin(size(&self.residual), self.fewest_steps);
         for _ in 0..steps {
             self.remove_regularization(system);
             self.row_residual(system);
@@ -297,7 +301,7 @@ impl Elimination {
                 *lambda += correction;
             }
             self.apply_multipliers(system);
-            if self.regularizes_inertia && self.proximal.ends(size(&self.residual), false) {
+            if self.regularizes_inertia && self.proximal.ends(size(&self.residual)) {
                 break;
             }
         }
@@ -397,6 +401,21 @@ impl Elimination {
     pub fn elimination_order(&self) -> Vec<ConstraintId> {
         self.factor.order().into_iter().map(ConstraintId).collect()
     }
+}
+
+/// See [`Elimination::fewest_steps`].
+fn fewest_steps(system: &System) -> usize {
+    let joined = |body: usize| system.incidences.iter().any(|incidence| incidence.body == body);
+    let steps = |(index, body): (usize, &RigidBody)| {
+        let lent = body.regularizing_inertia;
+        let own = body.principal.iter().copied().filter(|own| *own > lent).fold(f64::INFINITY, f64::min);
+        if lent == 0.0 || own.is_infinite() || joined(index) {
+            0
+        } else {
+            Proximal::steps_for(lent / (lent + own))
+        }
+    };
+    system.bodies.iter().enumerate().map(steps).max().unwrap_or(0)
 }
 
 /// The largest of these numbers.

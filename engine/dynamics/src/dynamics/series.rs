@@ -22,6 +22,10 @@ mod layout;
 
 mod acting;
 
+mod answer;
+
+mod lent;
+
 mod expand;
 
 mod work;
@@ -49,6 +53,7 @@ use bodies::{Bodies, Bundle, FeatureSlot, LanePlace, Planar, Single};
 use constraints::{Angles, JointPoints, NOWHERE, Prescribed, Rows, Schur};
 use lanes::LaneVector;
 use layout::bundles;
+use lent::Lent;
 use loads::Loads;
 use pulp::Simd;
 use work::WorkBetween;
@@ -72,8 +77,6 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     q: Vec<B::Natural>,
     /// Coefficients of the directors' forces p, likewise.
     p: Vec<B::Directors>,
-    /// Coefficients of ω̇, likewise, where bodies have inertia regularization.
-    turns: Vec<B::Moment>,
     /// C⁻¹ s̃ of all features.
     mobility: Vec<B::Mobility>,
     /// Values of features (or their rates, or second derivatives), those of the ground behind those of bodies.
@@ -118,8 +121,8 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     expansion: Expansion,
     /// Whether the factor is that of the state, up to the last correction.
     factor_is_here: bool,
-    /// Whether bodies have inertia regularization, which proximal steps take out again.
-    regularizes_inertia: bool,
+    /// Where bodies are lent inertia, what takes that out again.
+    lent: Option<Box<Lent<L, B>>>,
     /// Work done so far.
     pub counters: Counters,
     /// A copy that evaluates S at other times, and leaves the factor as it is.
@@ -180,6 +183,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let angles = Angles::new(system, &place, &schur.factor, stride, turns);
         let prescribed = Prescribed::new(system, &place, &schur.factor, L, stride);
         let loads = Loads::new(system, &place, L, stride);
+        let lent = system
+            .regularizes_inertia()
+            .then(|| Box::new(Lent::new(&bundles, stride, schur.factor.numbers() + NOWHERE)));
         let needs_values = rows.curved() || !angles.is_empty() || !loads.is_empty() || !prescribed.is_empty();
         Self {
             time: 0.0,
@@ -196,10 +202,6 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             sizes: vec![0.0; stride],
             q: vec![B::zero(); bundles.len() * stride],
             p: vec![B::no_directors(); bundles.len() * stride],
-            turns: vec![
-                B::no_moment();
-                if system.regularizes_inertia() { bundles.len() * stride } else { 0 }
-            ],
             mobility: vec![B::no_mobility(); moving],
             bundles,
             slots,
@@ -219,7 +221,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             expansion: Expansion::default(),
             factor_is_here: false,
             pivots: Pivots::new(system),
-            regularizes_inertia: system.regularizes_inertia(),
+            lent,
             counters: Counters::default(),
             probe: None,
             instants: None,

@@ -100,6 +100,14 @@ impl RigidBody {
         }
     }
 
+    /// Lends it, if it lacks inertia, as much as in another description: bodies that turn together about axes without inertia share the motion
+    /// as they are lent.
+    pub fn lend_as(&mut self, other: &Self) {
+        if self.regularizing_inertia > 0.0 && other.regularizing_inertia > 0.0 {
+            self.regularizing_inertia = other.regularizing_inertia;
+        }
+    }
+
     /// How far a point of its principal frame is from the axis about which it has no inertia, m, or from its centre of mass if that is every
     /// axis; zero if there is none.
     pub fn beside_lacking_axis(&self, point: &Vector3<f64>) -> f64 {

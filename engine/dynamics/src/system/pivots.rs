@@ -115,7 +115,8 @@ impl Pivot {
         }
         let pivot = Some(GroundPivot { ground, center: axes.tr_mul(&-point) });
         let least = least_inertia(held.bodies.iter().map(|body| &body.principal));
-        let body = RigidBody::new(&model, old.layout, arm, held.length, least);
+        let mut body = RigidBody::new(&model, old.layout, arm, held.length, least);
+        body.lend_as(old);
         held.bodies[index] = RigidBody { parts, pivot, ..body };
         for load in &mut held.loads {
             load.turn(|body| (body == index).then(|| (axes.transpose(), point)), None);

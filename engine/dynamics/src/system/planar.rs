@@ -170,7 +170,12 @@ fn set_inertia(flat: &mut System) {
         let scale = body.mass * arm * arm;
         let lacks = inertia < LACKING * scale || inertia == 0.0;
         let scale = if scale == 0.0 { body.mass * flat.length * flat.length } else { scale };
-        body.regularizing_inertia = if lacks { regularizing_inertia(scale, least) } else { 0.0 };
+        let lent = if body.regularizing_inertia > 0.0 {
+            body.regularizing_inertia
+        } else {
+            regularizing_inertia(scale, least)
+        };
+        body.regularizing_inertia = if lacks { lent } else { 0.0 };
     }
 }
 

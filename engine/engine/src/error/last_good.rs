@@ -42,6 +42,13 @@ pub enum Cause {
         /// The product of its relative pivots.
         pivot_product: f64,
     },
+    /// Joints allow bodies without inertia about some axes a motion in which they lend them next to none.
+    WithoutInertia {
+        /// When that was seen first, s.
+        time: f64,
+        /// The bodies.
+        bodies: Vec<String>,
+    },
     /// Dry friction raises the reaction that loads it by more than that raises the friction: no motion satisfies both.
     Locked {
         /// The load with the friction.
@@ -67,6 +74,12 @@ impl fmt::Display for Cause {
                     "\"{joint}\" hardly holds since the start, where others leave it {pivot_product:.0e} of a firm hold"
                 )
             }
+            Self::WithoutInertia { time, bodies } => write!(
+                f,
+                "at t = {time:.6} s joints lend {} next to no inertia in a motion that they allow: how fast it is there depends on \
+                 moments of inertia that the scene leaves out",
+                quoted(bodies)
+            ),
             Self::Locked { load } => write!(
                 f,
                 "the friction of \"{load}\" locks: it presses its joint together faster than it can hold, and no motion \
@@ -94,6 +107,9 @@ impl Cause {
             Self::Weak { .. } => {
                 "Move the points or axes of that joint away from the singular position that it starts in, or leave it out \
                  if others hold the same."
+            }
+            Self::WithoutInertia { .. } => {
+                "Give these bodies moments of inertia about every axis, as real ones have."
             }
             Self::Locked { .. } => {
                 "A real mechanism stops here with a jolt. Take a smaller coefficient, a longer guide or a thinner pin, or end the \

@@ -21,13 +21,23 @@ const TIGHT: f64 = 1e-11;
 impl Simulation {
     /// Why the motion cannot continue from the current state, if that can be found.
     pub(super) fn cause(&self) -> Option<Cause> {
-        self.locked().or_else(|| self.out_of_reach()).or_else(|| self.nearly_dependent())
+        self.locked()
+            .or_else(|| self.without_inertia())
+            .or_else(|| self.out_of_reach())
+            .or_else(|| self.nearly_dependent())
     }
 
     /// Whether friction and the reaction that loads it have grown together without bounds.
     fn locked(&self) -> Option<Cause> {
         let load = self.mechanism.elimination.locked_friction(self.system())?;
         Some(Cause::Locked { load: self.model().loads[load].name.clone() })
+    }
+
+    /// Whether bodies have come to move together with next to no inertia.
+    pub(super) fn without_inertia(&self) -> Option<Cause> {
+        let (time, bodies) = self.seen.hardly_inert.as_ref()?;
+        let named = |body: &usize| self.model().bodies[*body].name.clone();
+        Some(Cause::WithoutInertia { time: *time, bodies: bodies.iter().map(named).collect() })
     }
 
     /// Whether drivers ask for positions that the joints do not allow: then none is found a little ahead.

@@ -79,6 +79,12 @@ fn resting_energy(system: &System) -> f64 {
     0.5 * mass * speed * speed
 }
 
+/// Energy that the weight of a mechanism has over its length, J.
+fn weighing_energy(system: &System) -> f64 {
+    let mass: f64 = system.bodies.iter().map(|body| body.mass).sum();
+    mass * system.model.gravity.norm() * system.length
+}
+
 impl Simulation {
     /// Cost and accuracy up to the current state.
     ///
@@ -152,9 +158,18 @@ impl Simulation {
         })
     }
 
+    /// Whether joints and drivers leave a motion: where they leave none, velocities are rounding.
+    fn moves(&self) -> bool {
+        let system = &self.mechanism.system;
+        self.rank.rank < 6 * system.bodies.len()
+            || system.constraints.iter().any(|constraint| constraint.driver)
+    }
+
     /// What speaks against the current state.
     fn doubts(&self, singularities: &[SingularConfiguration], [drift, work]: [f64; 2]) -> Vec<String> {
         let mut doubts = self.branching();
+        doubts
+            .extend(self.without_inertia().map(|cause| format!("{cause}; give them some about every axis")));
         let system = &self.mechanism.system;
         let current = self.current.state(system);
         let start = self.start_energy.abs();
@@ -168,6 +183,7 @@ impl Simulation {
         let size = size.max(self.seen.work).max(work.abs());
         let size = if series { size.max(start) } else { size.max(STANDING * start) };
         let energies = start + current.energies(system).map(f64::abs).sum::<f64>();
+        let size = if self.moves() { size } else { size.max(energies).max(weighing_energy(system)) };
         let drift = self.seen.beyond_rounding(drift, energies);
         let signs = violation::Signs {
             passed: singularities.first().map(|passed| passed.time).filter(|_| !series),

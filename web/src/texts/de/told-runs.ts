@@ -67,6 +67,10 @@ export const toldOfRuns: Record<string, string> = {
     "„{joint}“ verliert gleich seinen Halt, von dem {left} übrig ist",
   '"{joint}" hardly holds since the start, where others leave it {left} of a firm hold':
     "„{joint}“ hält seit dem Anfang kaum, wo ihm andere {left} eines festen Halts lassen",
+  "at t = {time} s joints lend {bodies} next to no inertia in a motion that they allow: how fast it is there depends on moments of inertia that the scene leaves out":
+    "bei t = {time} s leihen Gelenke {bodies} fast keine Trägheit in einer Bewegung, die sie erlauben: Wie schnell sie dort ist, hängt von Trägheitsmomenten ab, die in der Szene fehlen",
+  "at t = {time} s joints lend {bodies} next to no inertia in a motion that they allow: how fast it is there depends on moments of inertia that the scene leaves out; give them some about every axis":
+    "bei t = {time} s leihen Gelenke {bodies} fast keine Trägheit in einer Bewegung, die sie erlauben: Wie schnell sie dort ist, hängt von Trägheitsmomenten ab, die in der Szene fehlen; gib ihnen um jede Achse welche",
   'the friction of "{load}" locks: it presses its joint together faster than it can hold, and no motion satisfies both':
     "die Reibung von „{load}“ klemmt: Sie presst ihr Gelenk schneller zusammen, als es halten kann, und keine Bewegung erfüllt beides",
 

@@ -8,6 +8,8 @@ use nalgebra::Vector3;
 const LEFT: f64 = 1e-6;
 /// Part of the others that the last of equal steps is at least.
 const EQUAL: f64 = 0.9;
+/// Part of the largest rotation above which a body takes part in one.
+const TAKES_PART: f64 = 0.1;
 
 impl Elimination {
     /// The body without inertia about some axis that the last solution leaves most out of balance, and the moment that is left, N m: each step
@@ -24,6 +26,20 @@ impl Elimination {
                 .then_some((body, left))
         };
         (0..system.bodies.len()).filter_map(left).max_by(|a, b| a.1.norm().total_cmp(&b.1.norm()))
+    }
+
+    /// The bodies that move together in the last solution with next to no inertia, most of all the first: joints lend none there about axes
+    /// without some.
+    pub fn hardly_inert(&self) -> Vec<usize> {
+        if !self.proximal.is_slow() {
+            return Vec::new();
+        }
+        let left = |body: &usize| (self.bodies[*body].twist[1] - self.bodies[*body].returned).norm();
+        let most = (0..self.bodies.len()).map(|body| left(&body)).fold(0.0, f64::max);
+        let mut bodies: Vec<usize> =
+            (0..self.bodies.len()).filter(|body| left(body) > TAKES_PART * most).collect();
+        bodies.sort_by(|a, b| left(b).total_cmp(&left(a)));
+        bodies
     }
 
     /// All that acts on a body in the last solution, however much of it cancels, as a moment, N m.

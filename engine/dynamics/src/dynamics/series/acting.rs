@@ -19,12 +19,24 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     #[inline(always)]
     pub(super) fn set_known_forces<S: Simd>(&mut self, simd: S, n: usize) {
         self.forces.fill([[0.0; L]; 3]);
-        self.rows.add_known_forces(n, &mut self.forces);
-        self.angles.add_known_forces(simd, n, &mut self.forces);
+        self.add_multipliers_forces(simd, n);
         let (q, stride) = (&self.q, self.stride);
         let coefficient = |b: usize, i: usize| &q[b * stride + i];
         self.loads.apply::<S, L, B>(simd, n, coefficient, &mut self.forces, &mut self.bundles);
         self.prescribed.pull_back(n, &self.forces, &mut self.bundles);
+        self.pull_back_convolved();
+    }
+
+    /// Adds to the forces on features those of order n that multipliers of lower order make.
+    #[inline(always)]
+    pub(super) fn add_multipliers_forces<S: Simd>(&mut self, simd: S, n: usize) {
+        self.rows.add_known_forces(n, &mut self.forces);
+        self.angles.add_known_forces(simd, n, &mut self.forces);
+    }
+
+    /// Adds to the forces on bodies those on features that such forces act on.
+    #[inline(always)]
+    pub(super) fn pull_back_convolved(&mut self) {
         for (b, bundle) in self.bundles.iter_mut().enumerate() {
             for &slot in self.points.convolved(b) {
                 B::pull_back(&self.slots[slot], &self.forces[slot], bundle.force_mut());

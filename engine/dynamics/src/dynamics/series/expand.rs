@@ -1,9 +1,10 @@
 //! The recurrence over the orders: from all coefficients before them to Q_(n+2) and λ_n.
 
+use super::answer::Answer;
 use super::lanes::{raise_whole, times};
+use super::lent::{Lending, Lent, Stage};
 use super::recurrence::acceleration_factor;
 use super::{Bodies, Series};
-use crate::dynamics::proximal::{PROXIMAL_STEPS, Proximal};
 use pulp::{Simd, WithSimd};
 use triad_linalg::{fma, larger};
 
@@ -73,12 +74,16 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Q_(n+2) and λ_n from all coefficients before them — eq. (11.2).
     #[inline(always)]
     pub(super) fn solve_order<S: Simd>(&mut self, simd: S, n: usize) {
-        if self.is_bare() && !self.regularizes_inertia && self.solve_alone(simd, n) {
+        if self.is_bare() && self.lent.is_none() && self.solve_alone(simd, n) {
             return;
         }
         let kappa = acceleration_factor(n);
         let over_kappa = 1.0 / kappa;
         let needs_values = self.needs_values;
+        let mut lent = self.lent.take();
+        if let Some(lent) = &mut lent {
+            simd.vectorize(Lending { series: self, lent, n, stage: Stage::Prepare });
+        }
         for bundle in &mut self.bundles {
             bundle.clear_force();
             if n == 0 {
@@ -100,18 +105,19 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         if needs_values {
             self.prepare_prescribed(n + 2, kappa);
         }
-        if self.regularizes_inertia {
-            self.turn_on(simd, n);
+        if let Some(lent) = &mut lent {
+            simd.vectorize(Lending { series: self, lent, n, stage: Stage::TurnOn });
         }
-        self.solve(simd, n);
+        self.solve(simd, lent.as_deref_mut(), n);
+        if let Some(lent) = &mut lent {
+            simd.vectorize(Lending { series: self, lent, n, stage: Stage::Store });
+        }
+        self.lent = lent;
         let mut largest = [0.0; 4];
         for (b, bundle) in self.bundles.iter().enumerate() {
             let at = b * self.stride + n;
             take_solution::<S, L, B>(simd, bundle, over_kappa, &mut self.q[at + 2], &mut largest);
             self.p[at] = bundle.director_forces(simd);
-            if self.regularizes_inertia {
-                self.turns[at] = bundle.turn_found(self.turns[at]);
-            }
         }
         self.sizes[n + 2] = largest.into_iter().fold(0.0, larger);
         if needs_values {
@@ -126,21 +132,6 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             }
             self.prescribed.add_known(over_kappa, &mut self.values);
             self.store_values(simd, n + 2);
-        }
-    }
-
-    /// Has bodies without inertia about an axis turn on about it as they do, where nothing holds it: the equations say nothing of that, and
-    /// the inertia that regularizes them speaks of ë alone, whose part across the directors is ω̇ in order 0 only.
-    #[inline(always)]
-    fn turn_on<S: Simd>(&mut self, simd: S, n: usize) {
-        for (b, bundle) in self.bundles.iter_mut().enumerate() {
-            let first = b * self.stride;
-            let q = &self.q[first..first + self.stride];
-            let known = B::known_turn(q, n);
-            if n > 0 {
-                bundle.turn_on(simd, q, &self.turns[first..first + n], known);
-            }
-            self.turns[first + n] = known;
         }
     }
 
@@ -160,96 +151,47 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Adds the joints' forces to the solutions that bodies have without them; λ goes to order n.
     #[inline(always)]
-    pub(super) fn solve<S: Simd>(&mut self, simd: S, n: usize) {
+    pub(super) fn solve<S: Simd>(&mut self, simd: S, lent: Option<&mut Lent<L, B>>, n: usize) {
         let rows = self.correction.len();
-        let refines = self.regularized || self.pivots.small || (self.resolving && !self.corrects_only);
-        let refinements = match (self.regularizes_inertia, refines) {
-            (true, _) => PROXIMAL_STEPS,
-            (false, true) => REFINEMENTS,
-            (false, false) => 0,
-        };
-        if self.schur.factor.numbers() == 0 && !self.regularizes_inertia {
+        if self.schur.factor.numbers() == 0 && lent.is_none() {
             return;
         }
         if self.points.has_others() {
             self.set_ground(false);
         }
-        let mut proximal = Proximal::begin(0.0);
-        let mut pass = 0;
-        loop {
-            if pass > 0 && self.regularizes_inertia {
-                for (bundle, state) in self.bundles.iter_mut().zip(&self.state) {
-                    bundle.remove_regularization(simd, &state[0]);
-                }
-            }
-            self.set_residual(simd);
-            self.schur.factor.solve_within(simd, &mut self.correction);
-            self.counters.solves += 1;
-            let lambda = &mut self.lambda[n * rows..(n + 1) * rows];
-            if pass == 0 {
-                lambda.copy_from_slice(&self.correction);
-            } else {
-                for (lambda, correction) in lambda.iter_mut().zip(&self.correction) {
-                    *lambda += correction;
-                }
-            }
-            self.apply_multipliers(simd, n);
-            if self.regularizes_inertia {
-                let size = self.correction.iter().fold(0.0f64, |most, x| larger(most, x.abs()));
-                if pass == 0 {
-                    proximal = Proximal::begin(size);
-                } else if proximal.ends(size, !self.regularized) {
-                    break;
-                }
-            }
-            if pass == refinements {
-                break;
-            }
-            pass += 1;
+        self.answer(simd);
+        self.lambda[n * rows..(n + 1) * rows].copy_from_slice(&self.correction);
+        if let Some(lent) = lent {
+            // Moments over δ are large, and so is their rounding beside what joints leave of them.
+            self.refine(simd, n);
+            simd.vectorize(Lending { series: self, lent, n, stage: Stage::Return });
         }
-    }
-
-    /// Adds to the bodies' solutions what the multipliers at hand, of order n, do.
-    #[inline(always)]
-    fn apply_multipliers<S: Simd>(&mut self, simd: S, n: usize) {
-        let others = self.points.has_others();
-        if others {
-            self.forces.fill([[0.0; L]; 3]);
-            self.rows.add_forces(B::DIRECTIONS, &self.correction, &mut self.forces);
-            self.angles.add_forces(&self.correction, &mut self.forces);
+        for _ in 0..self.refinements() {
+            self.refine(simd, n);
+        }
+        if self.points.has_others() && !self.prescribed.is_empty() {
+            let lambda = std::mem::take(&mut self.lambda);
+            self.set_multipliers_forces(&lambda[n * rows..(n + 1) * rows]);
+            self.lambda = lambda;
             self.prescribed.add_forces(n, &self.forces);
         }
-        for (b, (bundle, state)) in self.bundles.iter_mut().zip(&self.state).enumerate() {
-            let mut force = B::zero();
-            self.points.add_forces::<S, B>(simd, b, &self.correction, &mut force);
-            if others {
-                for &slot in self.points.others(b) {
-                    B::pull_back(&self.slots[slot], &self.forces[slot], &mut force);
-                }
-            }
-            bundle.apply(simd, &state[0], &force);
+    }
+
+    /// Adds to the solution of order n what answers to what rounding has left of the rows.
+    #[inline(always)]
+    pub(super) fn refine<S: Simd>(&mut self, simd: S, n: usize) {
+        simd.vectorize(Answer(self));
+        let rows = self.correction.len();
+        for (lambda, correction) in self.lambda[n * rows..(n + 1) * rows].iter_mut().zip(&self.correction) {
+            *lambda += correction;
         }
     }
 
-    /// What is left of all rows, given the bodies' part of the unknown.
+    /// How often a solution is refined.
     #[inline(always)]
-    fn set_residual<S: Simd>(&mut self, simd: S) {
-        let others = self.points.has_others();
-        self.correction.copy_from_slice(&self.rows.extra);
-        for (b, bundle) in self.bundles.iter().enumerate() {
-            let x = bundle.solution();
-            self.points.add_residual::<S, B>(simd, b, x, &mut self.correction);
-            if others {
-                for &slot in self.points.others(b) {
-                    self.values[slot] = B::value(&self.slots[slot], x);
-                }
-            }
-        }
-        if others {
-            self.prescribed.add_known(1.0, &mut self.values);
-            self.rows.residual(B::DIRECTIONS, &self.values, &mut self.correction);
-            self.angles.residual(&self.values, &self.rows.extra, &mut self.correction);
-        }
+    pub(super) fn refinements(&self) -> usize {
+        let refines = self.regularized || self.pivots.small || (self.resolving && !self.corrects_only);
+        if refines { REFINEMENTS } else { 0 }
     }
 
     /// Moves the point of expansion to the series' value after h, with terms up to order `order`.

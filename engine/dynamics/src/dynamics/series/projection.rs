@@ -65,7 +65,12 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
         self.prescribed.clear_known();
         // The multipliers of a correction mean nothing; the highest order has room for them.
-        self.solve(simd, self.stride - 1);
+        let mut lent = self.lent.take();
+        if let Some(lent) = &mut lent {
+            lent.begin();
+        }
+        self.solve(simd, lent.as_deref_mut(), self.stride - 1);
+        self.lent = lent;
         let mut moved: f64 = 0.0;
         for (bundle, state) in self.bundles.iter().zip(&mut self.state) {
             let step = B::lanes(bundle.solution());

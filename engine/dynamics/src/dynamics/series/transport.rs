@@ -128,9 +128,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         for b in 0..self.bundles.len() {
             self.q[b * self.stride + 2] = twin.q[b * self.stride + 2];
             self.p[b * self.stride] = twin.p[b * self.stride];
-            if self.regularizes_inertia {
-                self.turns[b * self.stride] = twin.turns[b * self.stride];
-            }
+        }
+        if let (Some(lent), Some(of_twin)) = (&mut self.lent, &twin.lent) {
+            lent.recall(of_twin, self.stride);
         }
         self.sizes[2] = twin.sizes[2];
         let rows = self.correction.len();

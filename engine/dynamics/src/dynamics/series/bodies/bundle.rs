@@ -2,7 +2,7 @@
 
 use super::convolution::{gram, moment, symmetric};
 use super::inertia::{invert_inertia, products_of_inertia};
-use super::kernels::Bodies;
+use super::kernels::{Bodies, scale_and_add};
 use super::slot::FeatureSlot;
 use crate::dynamics::series::lanes::{
     Lane, LaneVector, Natural, add_cross, add_dot, add_scaled, cross, dot, less, minor, multiply, negative,
@@ -42,25 +42,13 @@ pub struct Bundle<const L: usize> {
     moment: LaneVector<L>,
     /// The unknown: κ Q_(n+2), or a correction of Q.
     solution: Natural<L>,
-    /// Its twist part ω̇, and the part for which the effect of δ has been taken out.
+    /// Its twist part ω̇.
     omega: LaneVector<L>,
-    taken_out: LaneVector<L>,
 }
 
 impl<const L: usize> Bundle<L> {
     fn vector(x: &Natural<L>, k: usize, lane: usize) -> Vector3<f64> {
         Vector3::from_fn(|c, _| x[k][c][lane])
-    }
-
-    #[inline(always)]
-    fn turn(&mut self, q: &Natural<L>, moment: &LaneVector<L>) {
-        let omega = multiply(&self.inverse, moment);
-        for c in 0..3 {
-            self.omega[c] = sum(&self.omega[c], &omega[c]);
-        }
-        for k in 0..3 {
-            add_cross(&mut self.solution[1 + k], &omega, &q[1 + k]);
-        }
     }
 }
 
@@ -90,7 +78,6 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
             moment: zeros,
             solution: zero(),
             omega: zeros,
-            taken_out: zeros,
         }
     }
 
@@ -366,7 +353,6 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
             add_cross(&mut moment, &q[1 + k], &p);
         }
         self.omega = multiply(&self.inverse, &moment);
-        self.taken_out = [[0.0; L]; 3];
         self.solution[0] = scaled(&self.inverse_mass, &self.force[0]);
         for k in 0..3 {
             self.solution[1 + k] = particular[k];
@@ -376,21 +362,43 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
 
     /// Adds what further generalized forces do.
     #[inline(always)]
-    fn apply<S: Simd>(&mut self, _: S, q: &Natural<L>, force: &Natural<L>) {
-        let mut moment = [[0.0; L]; 3];
-        for k in 0..3 {
-            add_cross(&mut moment, &q[1 + k], &force[1 + k]);
-        }
+    fn apply<S: Simd>(&mut self, simd: S, q: &Natural<L>, force: &Natural<L>) {
+        let moment = Self::moment_of(simd, q, force);
         add_scaled(&mut self.solution[0], &self.inverse_mass, &force[0]);
-        self.turn(q, &moment);
+        self.turn(simd, q, moment);
         for (all, force) in self.force.as_flattened_mut().iter_mut().zip(force.as_flattened()) {
             *all = sum(all, force);
         }
     }
 
     #[inline(always)]
-    fn turn_on<S: Simd>(&mut self, _: S, q: &[Natural<L>], turns: &[LaneVector<L>], known: LaneVector<L>) {
-        let mut expected = known.map(|x| negative(&x));
+    fn moment_of<S: Simd>(_: S, q: &Natural<L>, force: &Natural<L>) -> LaneVector<L> {
+        let mut moment = [[0.0; L]; 3];
+        for k in 0..3 {
+            add_cross(&mut moment, &q[1 + k], &force[1 + k]);
+        }
+        moment
+    }
+
+    #[inline(always)]
+    fn turn<S: Simd>(&mut self, simd: S, q: &Natural<L>, moment: LaneVector<L>) {
+        let omega = multiply(&self.inverse, &moment);
+        self.rotate(simd, q, omega);
+    }
+
+    #[inline(always)]
+    fn rotate<S: Simd>(&mut self, _: S, q: &Natural<L>, omega: LaneVector<L>) {
+        for c in 0..3 {
+            self.omega[c] = sum(&self.omega[c], &omega[c]);
+        }
+        for k in 0..3 {
+            add_cross(&mut self.solution[1 + k], &omega, &q[1 + k]);
+        }
+    }
+
+    #[inline(always)]
+    fn carried_on(q: &[Natural<L>], turns: &[LaneVector<L>]) -> LaneVector<L> {
+        let mut expected = [[0.0; L]; 3];
         for k in 1..4 {
             let mut along = [0.0; L];
             for (turn, e) in turns.iter().zip(q[1..=turns.len()].iter().rev()) {
@@ -398,29 +406,57 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
             }
             add_scaled(&mut expected, &negative(&along), &q[0][k]);
         }
-        self.taken_out = expected;
-        self.turn(&q[0], &scaled(&self.regularizing_inertia, &expected));
+        expected
     }
 
     #[inline(always)]
-    fn turn_found(&self, mut known: LaneVector<L>) -> LaneVector<L> {
-        for c in 0..3 {
-            known[c] = sum(&known[c], &self.omega[c]);
+    fn moments_squared(&self) -> Lane<L> {
+        let mut squared = [0.0; L];
+        for k in 0..3 {
+            add_dot(&mut squared, &self.force[1 + k], &self.force[1 + k]);
+            let inertial = scaled(&self.ibar[k], &self.solution[1 + k]);
+            add_dot(&mut squared, &inertial, &inertial);
         }
-        known
+        squared
     }
 
-    /// One proximal step for bodies whose inertia is regularized.
     #[inline(always)]
-    fn remove_regularization<S: Simd>(&mut self, _: S, q: &Natural<L>) {
-        let mut moment = [[0.0; L]; 3];
-        for c in 0..3 {
-            for l in 0..L {
-                moment[c][l] = self.regularizing_inertia[l] * (self.omega[c][l] - self.taken_out[c][l]);
-            }
-        }
-        self.taken_out = self.omega;
-        self.turn(q, &moment);
+    fn lent(&self) -> &Lane<L> {
+        &self.regularizing_inertia
+    }
+
+    #[inline(always)]
+    fn omega(&self) -> &LaneVector<L> {
+        &self.omega
+    }
+
+    #[inline(always)]
+    fn moment_lanes(moment: &LaneVector<L>) -> &[Lane<L>] {
+        moment
+    }
+
+    #[inline(always)]
+    fn moment_lanes_mut(moment: &mut LaneVector<L>) -> &mut [Lane<L>] {
+        moment
+    }
+
+    #[inline(always)]
+    fn directors([_, e @ ..]: &Natural<L>) -> [LaneVector<L>; 3] {
+        *e
+    }
+
+    #[inline(always)]
+    fn rest(&mut self) {
+        self.solution = zero();
+        self.omega = [[0.0; L]; 3];
+        self.clear_force();
+    }
+
+    #[inline(always)]
+    fn scale_and_add(&mut self, own: f64, other: &Self, factor: f64) {
+        scale_and_add(self.solution.as_flattened_mut(), own, other.solution.as_flattened(), factor);
+        scale_and_add(self.force.as_flattened_mut(), own, other.force.as_flattened(), factor);
+        scale_and_add(&mut self.omega, own, &other.omega, factor);
     }
 
     /// p_k = P_k − Ī_k ë_k of the solution: what the directors' moments are made of.

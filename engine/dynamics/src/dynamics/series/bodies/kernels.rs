@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 use pulp::Simd;
 use std::fmt::Debug;
 use std::ops::Range;
+use triad_linalg::fma;
 
 /// Points of L bodies, whose numbers are turned over into rows of single bodies and back.
 pub trait Points<const L: usize> {
@@ -149,13 +150,30 @@ pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     fn begin<S: Simd>(&mut self, simd: S, q: &Self::Natural, gamma: &Self::Rigid, moment: Self::Moment);
     /// Adds what further generalized forces do.
     fn apply<S: Simd>(&mut self, simd: S, q: &Self::Natural, force: &Self::Natural);
-    /// Begins the iteration (7.8) of order n with ω̇ for which the bodies turn on as they do, about axes without inertia that nothing
-    /// holds: from those of all orders before, and from what these make of that of order n.
-    fn turn_on<S: Simd>(&mut self, simd: S, q: &[Self::Natural], turns: &[Self::Moment], known: Self::Moment);
-    /// ω̇ of the solution, which is of order n, with what lower orders make of it.
-    fn turn_found(&self, known: Self::Moment) -> Self::Moment;
-    /// One proximal step for bodies whose inertia is regularized.
-    fn remove_regularization<S: Simd>(&mut self, simd: S, q: &Self::Natural);
+    /// Moment that a generalized force has about the centres of mass.
+    fn moment_of<S: Simd>(simd: S, q: &Self::Natural, force: &Self::Natural) -> Self::Moment;
+    /// Adds what a moment makes of the unknown.
+    fn turn<S: Simd>(&mut self, simd: S, q: &Self::Natural, moment: Self::Moment);
+    /// Adds a rotation ω̇ to the unknown.
+    fn rotate<S: Simd>(&mut self, simd: S, q: &Self::Natural, omega: Self::Moment);
+    /// Forgets the solution, and the force that it is of.
+    fn rest(&mut self);
+    /// Takes `own` times its solution, with its force, and `factor` times another one.
+    fn scale_and_add(&mut self, own: f64, other: &Self, factor: f64);
+    /// The squares of what the moments of the solution are made of: Σ |P_k|² + |Ī_k ë_k|².
+    fn moments_squared(&self) -> Lane<L>;
+    /// δ, the inertia lent to each body.
+    fn lent(&self) -> &Lane<L>;
+    /// ω̇ of the solution.
+    fn omega(&self) -> &Self::Moment;
+    /// All components.
+    fn moment_lanes(moment: &Self::Moment) -> &[Lane<L>];
+    /// All components.
+    fn moment_lanes_mut(moment: &mut Self::Moment) -> &mut [Lane<L>];
+    /// The part of a generalized force that acts on directors.
+    fn directors(force: &Self::Natural) -> Self::Directors;
+    /// The coefficient n of a vector that has no component along any director in any order, from those before it, `turns`.
+    fn carried_on(q: &[Self::Natural], turns: &[Self::Moment]) -> Self::Moment;
     /// The solution.
     fn solution(&self) -> &Self::Natural;
     /// p_k = P_k − Ī_k ë_k of the solution.
@@ -178,4 +196,12 @@ pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     fn position_correction(&self, q: &Self::Natural) -> Self::Rigid;
     /// Right-hand sides that correct velocities.
     fn velocity_correction(&self, q: &Self::Natural, q_dot: &Self::Natural) -> Self::Rigid;
+}
+
+/// x ← own x + factor y.
+#[inline(always)]
+pub fn scale_and_add<const L: usize>(x: &mut [Lane<L>], own: f64, y: &[Lane<L>], factor: f64) {
+    for (x, y) in x.as_flattened_mut().iter_mut().zip(y.as_flattened()) {
+        *x = fma(factor, *y, own * *x);
+    }
 }

@@ -4,10 +4,10 @@
 //! (ṙ, ω) with three components, and the mass matrix is diag(m, m, I, I) with the moment of inertia I about the normal.
 
 use super::alone_in_plane::AloneInPlane;
-use super::kernels::Bodies;
+use super::kernels::{Bodies, scale_and_add};
 use super::pair::{Pair, cross, each, gram, moment, turned};
 use super::slot::FeatureSlot;
-use crate::dynamics::series::lanes::{Lane, LaneVector, plus, sum};
+use crate::dynamics::series::lanes::{Lane, LaneVector, plus};
 use crate::dynamics::series::recurrence::acceleration_factor;
 use crate::system::System;
 use crate::system::body::{PlanarPose, RigidBody};
@@ -15,6 +15,7 @@ use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 use pulp::Simd;
 use std::ops::Range;
+use std::slice::{from_mut, from_ref};
 
 /// L bodies in a plane.
 #[derive(Clone, Debug)]
@@ -42,7 +43,6 @@ pub struct Planar<const L: usize> {
     moment: Lane<L>,
     solution: [Pair<L>; 2],
     omega: Lane<L>,
-    taken_out: Lane<L>,
     /// Half the accelerations of their centres of mass, and how they turn, if nothing joins them to others.
     fall: Pair<L>,
     alone: AloneInPlane<L>,
@@ -52,7 +52,7 @@ impl<const L: usize> Planar<L> {
     /// Adds the effect of a force at the centre of mass and of a moment about it. z̈ is computed from the sum of all ω̇: where δ
     /// is small, their large parts must not leave their rounding in z · z̈.
     #[inline(always)]
-    fn turn(&mut self, z: &Pair<L>, force: &Pair<L>, moment: &Lane<L>) {
+    fn push(&mut self, z: &Pair<L>, force: &Pair<L>, moment: &Lane<L>) {
         for l in 0..L {
             self.omega[l] += self.inverse[l] * moment[l];
             self.solution[0][0][l] += self.inverse_mass[l] * force[0][l];
@@ -93,7 +93,6 @@ impl<const L: usize> Bodies<L> for Planar<L> {
             moment: [0.0; L],
             solution: [zeros; 2],
             omega: [0.0; L],
-            taken_out: [0.0; L],
             fall: zeros,
             alone: AloneInPlane::empty(),
         }
@@ -305,11 +304,10 @@ impl<const L: usize> Bodies<L> for Planar<L> {
             let p = [0, 1].map(|c| self.force[1][c][l] - self.inertia[l] * self.particular[c][l]);
             moment[l] += self.moment[l] + z[0][l] * p[1] - z[1][l] * p[0];
             self.omega[l] = 0.0;
-            self.taken_out[l] = 0.0;
         }
         self.solution[0] = [[0.0; L]; 2];
         let force = self.force[0];
-        self.turn(z, &force, &moment);
+        self.push(z, &force, &moment);
     }
 
     #[inline(always)]
@@ -321,27 +319,79 @@ impl<const L: usize> Bodies<L> for Planar<L> {
                 self.force[1][c][l] += force[1][c][l];
             }
         }
-        self.turn(&q[1], &force[0], &moment);
+        self.push(&q[1], &force[0], &moment);
     }
 
     #[inline(always)]
-    fn turn_on<S: Simd>(&mut self, _: S, q: &[[Pair<L>; 2]], _: &[Lane<L>], known: Lane<L>) {
+    fn moment_of<S: Simd>(_: S, [_, z]: &[Pair<L>; 2], [_, force]: &[Pair<L>; 2]) -> Lane<L> {
+        cross(z, force)
+    }
+
+    #[inline(always)]
+    fn turn<S: Simd>(&mut self, _: S, [_, z]: &[Pair<L>; 2], moment: Lane<L>) {
+        self.push(z, &[[0.0; L]; 2], &moment);
+    }
+
+    #[inline(always)]
+    fn rotate<S: Simd>(&mut self, _: S, [_, z]: &[Pair<L>; 2], omega: Lane<L>) {
+        for l in 0..L {
+            self.omega[l] += omega[l];
+        }
+        self.push(z, &[[0.0; L]; 2], &[0.0; L]);
+    }
+
+    #[inline(always)]
+    fn carried_on(_: &[[Pair<L>; 2]], _: &[Lane<L>]) -> Lane<L> {
         // The normal is the same in all orders.
-        self.taken_out = each(|l| -known[l]);
-        let moment = each(|l| -self.regularizing_inertia[l] * known[l]);
-        self.turn(&q[0][1], &[[0.0; L]; 2], &moment);
+        [0.0; L]
     }
 
     #[inline(always)]
-    fn turn_found(&self, known: Lane<L>) -> Lane<L> {
-        sum(&known, &self.omega)
+    fn moments_squared(&self) -> Lane<L> {
+        each(|l| {
+            let of = |c: usize| (self.force[1][c][l], self.inertia[l] * self.solution[1][c][l]);
+            [of(0), of(1)].into_iter().map(|(force, inertial)| force * force + inertial * inertial).sum()
+        })
     }
 
     #[inline(always)]
-    fn remove_regularization<S: Simd>(&mut self, _: S, q: &[Pair<L>; 2]) {
-        let moment = each(|l| self.regularizing_inertia[l] * (self.omega[l] - self.taken_out[l]));
-        self.taken_out = self.omega;
-        self.turn(&q[1], &[[0.0; L]; 2], &moment);
+    fn lent(&self) -> &Lane<L> {
+        &self.regularizing_inertia
+    }
+
+    #[inline(always)]
+    fn omega(&self) -> &Lane<L> {
+        &self.omega
+    }
+
+    #[inline(always)]
+    fn moment_lanes(moment: &Lane<L>) -> &[Lane<L>] {
+        from_ref(moment)
+    }
+
+    #[inline(always)]
+    fn moment_lanes_mut(moment: &mut Lane<L>) -> &mut [Lane<L>] {
+        from_mut(moment)
+    }
+
+    #[inline(always)]
+    fn directors([_, z]: &[Pair<L>; 2]) -> Pair<L> {
+        *z
+    }
+
+    #[inline(always)]
+    fn rest(&mut self) {
+        self.solution = Self::zero();
+        self.omega = [0.0; L];
+        self.particular = [[0.0; L]; 2];
+        self.clear_force();
+    }
+
+    #[inline(always)]
+    fn scale_and_add(&mut self, own: f64, other: &Self, factor: f64) {
+        scale_and_add(self.solution.as_flattened_mut(), own, other.solution.as_flattened(), factor);
+        scale_and_add(self.force.as_flattened_mut(), own, other.force.as_flattened(), factor);
+        scale_and_add(from_mut(&mut self.omega), own, from_ref(&other.omega), factor);
     }
 
     #[inline(always)]

@@ -6,7 +6,7 @@ use super::bundle::Bundle;
 use super::components::{
     Components, ZERO, column, combined, cross, gram, moment, narrowed, packed, turned, widened,
 };
-use super::kernels::Bodies;
+use super::kernels::{Bodies, scale_and_add};
 use super::slot::FeatureSlot;
 use crate::dynamics::series::lanes::{
     Lane, LaneVector, add_cross, difference_whole, plus_whole, scaled, sum_whole, times_whole,
@@ -18,6 +18,7 @@ use crate::system::natural::NaturalCoordinates;
 use nalgebra::Vector3;
 use pulp::Simd;
 use std::ops::Range;
+use std::slice::{from_mut, from_ref};
 use triad_linalg::fma;
 
 /// One body.
@@ -36,7 +37,6 @@ pub struct Single {
     moment: Components,
     solution: [Components; 4],
     omega: Components,
-    taken_out: Components,
     /// What it does if nothing joins it to others.
     alone: Alone,
 }
@@ -44,21 +44,6 @@ pub struct Single {
 impl Single {
     fn vector(x: &[Components; 4], k: usize) -> Vector3<f64> {
         Vector3::new(x[k][0], x[k][1], x[k][2])
-    }
-
-    /// Adds what a moment makes of the unknown.
-    #[inline(always)]
-    fn turn<S: Simd>(&mut self, simd: S, q: &[Components; 4], moment: Components) {
-        let [x, y, z, _] = moment;
-        let omega = combined(simd, [x, y, z], &self.inverse);
-        self.omega = sum_whole(simd, &self.omega, &omega);
-        let ahead = turned(omega);
-        for k in 1..4 {
-            let (first, second) =
-                (times_whole(simd, &omega, &turned(q[k])), times_whole(simd, &ahead, &q[k]));
-            let across = turned(difference_whole(simd, &first, &second));
-            self.solution[k] = sum_whole(simd, &self.solution[k], &across);
-        }
     }
 }
 
@@ -84,7 +69,6 @@ impl Bodies<1> for Single {
             moment: ZERO,
             solution: [ZERO; 4],
             omega: ZERO,
-            taken_out: ZERO,
             alone: Alone::empty(),
         }
     }
@@ -306,7 +290,6 @@ impl Bodies<1> for Single {
         let [_, u, v, w] = *q;
         let moment = sum_whole(simd, &sum_whole(simd, &known, &self.moment), &cross(simd, &[u, v, w], &p));
         self.omega = ZERO;
-        self.taken_out = ZERO;
         let [u, v, w] = particular;
         self.solution = [times_whole(simd, &self.inverse_mass, &self.force[0]), u, v, w];
         self.turn(simd, q, moment);
@@ -323,8 +306,33 @@ impl Bodies<1> for Single {
     }
 
     #[inline(always)]
-    fn turn_on<S: Simd>(&mut self, simd: S, q: &[[Components; 4]], turns: &[Components], known: Components) {
-        let mut expected = times_whole(simd, &[-1.0; 4], &known);
+    fn moment_of<S: Simd>(simd: S, [_, u, v, w]: &[Components; 4], force: &[Components; 4]) -> Components {
+        let [_, a, b, c] = *force;
+        cross(simd, &[*u, *v, *w], &[a, b, c])
+    }
+
+    #[inline(always)]
+    fn turn<S: Simd>(&mut self, simd: S, q: &[Components; 4], moment: Components) {
+        let [x, y, z, _] = moment;
+        let omega = combined(simd, [x, y, z], &self.inverse);
+        self.rotate(simd, q, omega);
+    }
+
+    #[inline(always)]
+    fn rotate<S: Simd>(&mut self, simd: S, q: &[Components; 4], omega: Components) {
+        self.omega = sum_whole(simd, &self.omega, &omega);
+        let ahead = turned(omega);
+        for k in 1..4 {
+            let (first, second) =
+                (times_whole(simd, &omega, &turned(q[k])), times_whole(simd, &ahead, &q[k]));
+            let across = turned(difference_whole(simd, &first, &second));
+            self.solution[k] = sum_whole(simd, &self.solution[k], &across);
+        }
+    }
+
+    #[inline(always)]
+    fn carried_on(q: &[[Components; 4]], turns: &[Components]) -> Components {
+        let mut expected = ZERO;
         for k in 1..4 {
             let mut along = 0.0;
             for (turn, e) in turns.iter().zip(q[1..=turns.len()].iter().rev()) {
@@ -332,30 +340,62 @@ impl Bodies<1> for Single {
                     along = fma(turn[c], e[k][c], along);
                 }
             }
-            expected = plus_whole(simd, &[-along; 4], &q[0][k], &expected);
+            for c in 0..3 {
+                expected[c] = fma(-along, q[0][k][c], expected[c]);
+            }
         }
-        self.taken_out = expected;
-        let inertia = self.plain.regularizing_inertia[0];
-        self.turn(simd, &q[0], times_whole(simd, &[inertia; 4], &expected));
+        expected
     }
 
     #[inline(always)]
-    fn turn_found(&self, mut known: Components) -> Components {
-        for c in 0..3 {
-            known[c] += self.omega[c];
+    fn moments_squared(&self) -> Lane<1> {
+        let mut squared = 0.0;
+        for k in 0..3 {
+            for c in 0..3 {
+                let inertial = self.minus_ibar[k][c] * self.solution[1 + k][c];
+                squared = fma(self.force[1 + k][c], self.force[1 + k][c], fma(inertial, inertial, squared));
+            }
         }
-        known
+        [squared]
     }
 
     #[inline(always)]
-    fn remove_regularization<S: Simd>(&mut self, simd: S, q: &[Components; 4]) {
-        let [inertia] = self.plain.regularizing_inertia;
-        let mut moment = ZERO;
-        for c in 0..3 {
-            moment[c] = inertia * (self.omega[c] - self.taken_out[c]);
-        }
-        self.taken_out = self.omega;
-        self.turn(simd, q, moment);
+    fn lent(&self) -> &Lane<1> {
+        &self.plain.regularizing_inertia
+    }
+
+    #[inline(always)]
+    fn omega(&self) -> &Components {
+        &self.omega
+    }
+
+    #[inline(always)]
+    fn moment_lanes(moment: &Components) -> &[Lane<1>] {
+        moment.as_chunks().0
+    }
+
+    #[inline(always)]
+    fn moment_lanes_mut(moment: &mut Components) -> &mut [Lane<1>] {
+        moment.as_chunks_mut().0
+    }
+
+    #[inline(always)]
+    fn directors([_, e @ ..]: &[Components; 4]) -> [Components; 3] {
+        *e
+    }
+
+    #[inline(always)]
+    fn rest(&mut self) {
+        self.solution = [ZERO; 4];
+        self.omega = ZERO;
+        self.clear_force();
+    }
+
+    #[inline(always)]
+    fn scale_and_add(&mut self, own: f64, other: &Self, factor: f64) {
+        scale_and_add(&mut self.solution, own, &other.solution, factor);
+        scale_and_add(&mut self.force, own, &other.force, factor);
+        scale_and_add(from_mut(&mut self.omega), own, from_ref(&other.omega), factor);
     }
 
     #[inline(always)]

@@ -122,20 +122,46 @@ struct Relation {
     constant: f64,
     angles: [Option<Turn>; 2],
     slide: Option<Slide>,
-    /// Coefficients of its multiplier.
-    lambda: Vec<f64>,
+    /// Its multiplier, and that of the second kind: see [`Angles::exchange_multipliers`].
+    multiplier: Multiplier,
+    other: Multiplier,
     /// Its features and gradient with respect to them at the state, in the order of [`Form::features`].
     places: Vec<LanePlace>,
     gradients: Vec<Vector3<f64>>,
 }
 
-/// The part of an angle, with the series of its multiplier times x and y over x² + y².
+/// The coefficients of a multiplier, and for each angle those of its products with x and y over x² + y².
 #[derive(Clone, Debug)]
+struct Multiplier {
+    lambda: Vec<f64>,
+    cosine: [Vec<f64>; 2],
+    sine: [Vec<f64>; 2],
+}
+
+impl Multiplier {
+    fn new(stride: usize) -> Self {
+        let each = || [0; 2].map(|_| vec![0.0; stride]);
+        Self { lambda: vec![0.0; stride], cosine: each(), sine: each() }
+    }
+
+    /// Takes over coefficient n.
+    #[inline(always)]
+    fn store(&mut self, n: usize, lambda: f64, angles: &[Option<Turn>; 2], list: &[AngleSeries]) {
+        self.lambda[n] = lambda;
+        for (k, turn) in angles.iter().enumerate() {
+            let Some(turn) = turn else { continue };
+            let angle = &list[turn.angle];
+            self.cosine[k][n] = product(&self.lambda, &angle.cosine, n);
+            self.sine[k][n] = product(&self.lambda, &angle.sine, n);
+        }
+    }
+}
+
+/// The part of an angle.
+#[derive(Clone, Copy, Debug)]
 struct Turn {
     angle: usize,
     factor: f64,
-    cosine: Vec<f64>,
-    sine: Vec<f64>,
 }
 
 /// The part of a displacement: minuend and subtrahend of both factors, and their series.
@@ -188,14 +214,15 @@ impl Angles {
                 constant,
                 angles: angles.map(|term| {
                     let (angle, factor) = term?;
-                    Some(Turn { angle, factor, cosine: vec![0.0; stride], sine: vec![0.0; stride] })
+                    Some(Turn { angle, factor })
                 }),
                 slide: slide.map(|(a, b, factor)| Slide {
                     places: [pair(a), pair(b)],
                     factor,
                     sides: [0; 2].map(|_| vec![Vector3::zeros(); stride]),
                 }),
-                lambda: vec![0.0; stride],
+                multiplier: Multiplier::new(stride),
+                other: Multiplier::new(if system.regularizes_inertia() { stride } else { 0 }),
                 gradients: vec![Vector3::zeros(); places.len()],
                 places,
             })
@@ -249,12 +276,14 @@ impl Angles {
     #[inline(always)]
     pub fn store_multipliers(&mut self, n: usize, lambda: &[f64]) {
         for relation in &mut self.relations {
-            relation.lambda[n] = lambda[relation.row];
-            for turn in relation.angles.iter_mut().flatten() {
-                let angle = &self.list[turn.angle];
-                turn.cosine[n] = product(&relation.lambda, &angle.cosine, n);
-                turn.sine[n] = product(&relation.lambda, &angle.sine, n);
-            }
+            relation.multiplier.store(n, lambda[relation.row], &relation.angles, &self.list);
+        }
+    }
+
+    /// Has the second kind of multipliers in the place of the first, or the first in theirs again.
+    pub fn exchange_multipliers(&mut self) {
+        for relation in &mut self.relations {
+            std::mem::swap(&mut relation.multiplier, &mut relation.other);
         }
     }
 
@@ -319,18 +348,18 @@ impl Angles {
             return;
         }
         for relation in &mut self.relations {
-            relation.lambda[n] = 0.0;
-            let Relation { lambda, angles, slide, .. } = relation;
-            for turn in angles.iter_mut().flatten() {
-                let angle = &self.list[turn.angle];
-                turn.cosine[n] = product(lambda, &angle.cosine, n);
-                turn.sine[n] = product(lambda, &angle.sine, n);
+            let Relation { multiplier, angles, slide, .. } = relation;
+            multiplier.store(n, 0.0, angles, &self.list);
+            let Multiplier { lambda, cosine, sine } = multiplier;
+            for ((turn, cosine), sine) in angles.iter().zip(cosine).zip(sine) {
+                let Some(Turn { angle, factor }) = *turn else { continue };
+                let angle = &self.list[angle];
                 let [a1, a2, b] = &angle.vectors;
                 let [on_a1, on_a2, on_b] = angle.places;
-                on_a1.add(forces, (scaled_quads(simd, &turn.sine, b, n) * turn.factor).into());
-                on_a2.add(forces, (scaled_quads(simd, &turn.cosine, b, n) * -turn.factor).into());
-                let across = scaled_quads(simd, &turn.sine, a1, n) - scaled_quads(simd, &turn.cosine, a2, n);
-                on_b.add(forces, (across * turn.factor).into());
+                on_a1.add(forces, (scaled_quads(simd, sine, b, n) * factor).into());
+                on_a2.add(forces, (scaled_quads(simd, cosine, b, n) * -factor).into());
+                let across = scaled_quads(simd, sine, a1, n) - scaled_quads(simd, cosine, a2, n);
+                on_b.add(forces, (across * factor).into());
             }
             let Some(slide) = slide else { continue };
             for side in 0..2 {

@@ -25,8 +25,12 @@ struct Driven {
     /// Coefficients of its local coordinates and of the constraint force on it.
     local: Vectors,
     force: Vectors,
+    /// That of the second kind of multipliers, if there are any: see [`Prescribed::exchange_multipliers`].
+    other_force: Vectors,
     /// What it has in the current order beyond C₀ Q_m.
     known: Vector3<f64>,
+    /// That while it counts for nothing.
+    set_aside: Vector3<f64>,
 }
 
 /// A prescribed number of a product row.
@@ -64,7 +68,9 @@ impl Prescribed {
                 body,
                 local: vec![Vector3::zeros(); stride],
                 force: vec![Vector3::zeros(); stride],
+                other_force: vec![Vector3::zeros(); if system.regularizes_inertia() { stride } else { 0 }],
                 known: Vector3::zeros(),
+                set_aside: Vector3::zeros(),
             })
         });
         let numbers = system.rows.iter().filter_map(|row| match row.form {
@@ -156,6 +162,13 @@ impl Prescribed {
         }
     }
 
+    /// Has what [`Self::prepare`] found count for nothing, or again.
+    pub fn exchange_known(&mut self) {
+        for feature in &mut self.features {
+            std::mem::swap(&mut feature.known, &mut feature.set_aside);
+        }
+    }
+
     /// Adds what [`Self::prepare`] found, times a factor, to the values of features.
     #[inline(always)]
     pub fn add_known<const L: usize>(&self, factor: f64, values: &mut [LaneVector<L>]) {
@@ -191,6 +204,13 @@ impl Prescribed {
     pub fn add_forces<const L: usize>(&mut self, n: usize, forces: &[LaneVector<L>]) {
         for feature in &mut self.features {
             feature.force[n] += Vector3::from(feature.place.get(forces));
+        }
+    }
+
+    /// Has the forces of the second kind of multipliers in the place of the first, or the first in theirs again.
+    pub fn exchange_multipliers(&mut self) {
+        for feature in &mut self.features {
+            std::mem::swap(&mut feature.force, &mut feature.other_force);
         }
     }
 

@@ -47,6 +47,8 @@ pub struct Rows<const L: usize> {
     /// Coefficients of (x, y) and of λ of each product, `stride` for each.
     factors: Vec<[LaneVector<L>; 2]>,
     lambda: Vec<Lane<L>>,
+    /// Those of the second kind of multipliers, if there are any: see [`Self::exchange_multipliers`].
+    others: Vec<Lane<L>>,
     stride: usize,
     /// What each solver row demands beyond the unknowns: Σ x(i) · y(n−i), Φ or Φ̇.
     pub extra: Vec<f64>,
@@ -69,6 +71,7 @@ impl<const L: usize> Rows<L> {
             products: Vec::new(),
             factors: Vec::new(),
             lambda: Vec::new(),
+            others: Vec::new(),
             stride,
             extra: vec![0.0; factor.numbers() + NOWHERE],
         };
@@ -101,6 +104,9 @@ impl<const L: usize> Rows<L> {
         }
         rows.factors = vec![[[[0.0; L]; 3]; 2]; rows.products.len() * stride];
         rows.lambda = vec![[0.0; L]; rows.products.len() * stride];
+        if system.regularizes_inertia() {
+            rows.others.clone_from(&rows.lambda);
+        }
         rows
     }
 
@@ -306,6 +312,11 @@ impl<const L: usize> Rows<L> {
             let own = product.lanes_of(lambda);
             product.add_forces(&[scaled(&own, y), scaled(&own, x)], forces);
         }
+    }
+
+    /// Has the second kind of multipliers in the place of the first, or the first in theirs again.
+    pub fn exchange_multipliers(&mut self) {
+        std::mem::swap(&mut self.lambda, &mut self.others);
     }
 
     /// Stores the multipliers of order n that convolutions need.
