@@ -56,7 +56,7 @@ pub use check::{
 };
 pub use exercise::Parameters;
 pub use grading::closed::chosen;
-pub use grading::{Computed, GradeError, Known, Understood, asked, grade, grade_if, near, understand};
+pub use grading::{Computed, GradeError, Known, Understood, asked, grade, grade_while, near, understand};
 pub use lesson::{
     Course, CourseError, Lesson, LessonError, LessonSummary, LessonView, NotionGraph, VariantError,
 };

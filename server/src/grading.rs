@@ -55,7 +55,7 @@ pub fn grade(
 ) -> Result<(Submission, Verdict), Problem> {
     let submission = Submission::from_json(text)?;
     let lesson = variants.of(lesson, given.unwrap_or_else(|| submission.numbers_of()))?;
-    let verdict = triad_lessons::grade_if(&lesson, &submission, &variants.known, wanted)?;
+    let verdict = triad_lessons::grade_while(&lesson, &submission, &variants.known, wanted)?;
     Ok((submission, verdict))
 }
 
@@ -71,7 +71,7 @@ pub fn judge_again(
 ) -> Result<Verdict, String> {
     let submission = answered(answers)?;
     let own = variants.of(lesson, seed).map_err(|problem| problem.to_string())?;
-    triad_lessons::grade_if(&own, &submission, &variants.known, wanted).map_err(|error| error.to_string())
+    triad_lessons::grade_while(&own, &submission, &variants.known, wanted).map_err(|error| error.to_string())
 }
 
 /// The answers that are kept of a submission.

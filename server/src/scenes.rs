@@ -1,5 +1,6 @@
 //! Finding scenes: built-in ones by name, others in files; and the engine's errors as problems.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use axum::http::StatusCode;
@@ -68,7 +69,8 @@ pub fn builtin(name: &str) -> Result<Scene, Problem> {
 /// Errors if there is neither, or the file is no scene.
 pub fn named_or_in_file(spec: &str) -> Result<Scene, Problem> {
     let path = Path::new(spec);
-    if path.is_file() {
+    // Also a pipe: `triad check <(…)`.
+    if path.exists() && !path.is_dir() {
         return in_file(path);
     }
     let unknown = match catalogue::scene(spec) {
@@ -116,11 +118,14 @@ pub fn read(path: &Path, limit: u64) -> Result<String, Problem> {
             hint,
         )
     };
-    let size = std::fs::metadata(path).map_err(|e| refused(e.to_string(), "check the path"))?.len();
-    if size > limit {
-        return Err(refused(format!("it has {size} bytes, more than {limit}"), "use a smaller file"));
+    let file = std::fs::File::open(path).map_err(|e| refused(e.to_string(), "check the path"))?;
+    let mut bytes = Vec::new();
+    // A pipe does not tell its size.
+    let size = file.take(limit + 1).read_to_end(&mut bytes);
+    if size.map_err(|e| refused(e.to_string(), "check the path"))? as u64 > limit {
+        return Err(refused(format!("it has more than {limit} bytes"), "use a smaller file"));
     }
-    std::fs::read_to_string(path).map_err(|e| refused(e.to_string(), "it must be a text file in UTF-8"))
+    String::from_utf8(bytes).map_err(|e| refused(e.to_string(), "it must be a text file in UTF-8"))
 }
 
 /// A scene for the server: the built-in of that name, within the server's bounds.

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use axum::http::StatusCode;
 use tokio::sync::Semaphore;
-use triad_engine::analysis::{AnalysisError, Wanted};
+use triad_engine::analysis::Wanted;
 
 use crate::aside;
 use crate::problem::Problem;
@@ -74,11 +74,6 @@ impl Drop for Asker {
     fn drop(&mut self) {
         self.0.no_longer();
     }
-}
-
-/// Errors, for nobody to read, where nobody waits any more.
-pub fn still(wanted: &Wanted) -> Result<(), Problem> {
-    if wanted.is_still() { Ok(()) } else { Err(AnalysisError::NoLongerWanted.into()) }
 }
 
 /// One of those who wait.

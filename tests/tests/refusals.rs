@@ -6,7 +6,7 @@
 use serde_json::{Value, json};
 use triad_engine::EngineError;
 use triad_engine::analysis::{
-    AnalysisError, ModesAbout, Wanted, assemble, check, equilibrium, equilibrium_if, kinematics, modes,
+    AnalysisError, ModesAbout, Wanted, assemble, check, equilibrium, equilibrium_while, kinematics, modes,
 };
 use triad_engine::catalogue::{self, CatalogueError};
 use triad_engine::constraints::ConstraintError;
@@ -145,7 +145,7 @@ fn texts_that_are_no_scene() {
 #[test]
 fn scenes_that_cannot_be() {
     let mut met = Refusals::new(variants!(
-        ModelError: NoBodies, DuplicateName, ReservedName, UnknownBody, SameBody, NotFinite, OutOfRange, Mass, Inertia,
+        ModelError: NoBodies, DuplicateName, ReservedName, UnknownName, SameBody, NotFinite, OutOfRange, Mass, Inertia,
         Asymmetric, Orientation, Geometry, Parameter
     ));
     let mut meet = |tried: &str, scene: &Scene| {
@@ -184,7 +184,15 @@ fn scenes_that_cannot_be() {
             "/drivers",
             json!([{"name": "m", "type": "angle", "joint": "nothing", "motion": {"kind": "constant", "value": 0}}]),
         ),
-        ("/loads/0", json!({"name": "rub", "type": "torsion", "joint": "nothing", "damping": 1})),
+        ("/loads/0", json!({"name": "rub", "type": "torsion", "joint": "pim", "damping": 1})),
+        ("/loads/0", json!({"name": "slip", "type": "slider", "joint": "pin", "damping": 1})),
+        ("/markers", json!([{"name": "tip", "body": "bobb"}])),
+        (
+            "/events",
+            json!([{"name": "low", "of": {"type": "marker", "marker": "tip", "direction": [0, 1, 0]}, "value": 0}]),
+        ),
+        ("/simulation/outputs", json!(["reactions:pim"])),
+        ("/simulation/outputs", json!(["energy:pin"])),
         ("/parameters/0/low", json!(1.5)),
         ("/parameters/0/pointer", json!("/bodies/0/weight")),
     ] {
@@ -415,7 +423,7 @@ fn analyses_without_a_result() {
     left.no_longer();
     meet(
         "equilibrium for somebody who left",
-        &equilibrium_if(&builtin("simple-pendulum"), &left).unwrap_err(),
+        &equilibrium_while(&builtin("simple-pendulum"), &left).unwrap_err(),
     );
     all_reviewed("refusals-analysis", [met.text()]);
 }
@@ -426,7 +434,7 @@ fn robots_that_cannot_be_read() {
     let arm = std::fs::read_to_string(triad_tests::root().join("tests/data/arm.urdf")).unwrap();
     let mut meet = |tried: &str, urdf: &str, side_car: &Value| {
         let side_car: SideCar = serde_json::from_value(side_car.clone()).unwrap();
-        let error = triad_urdf::import_if(urdf, &side_car, &|| !tried.contains("left")).unwrap_err();
+        let error = triad_urdf::import_while(urdf, &side_car, &|| !tried.contains("left")).unwrap_err();
         let hint = if let UrdfError::Wrong { hint, .. } = &error { hint } else { "" };
         met.meet(tried, &error, "", None, hint);
     };

@@ -89,6 +89,11 @@ pub struct Model {
 }
 
 impl Model {
+    /// The mass of all bodies, kg.
+    pub fn mass(&self) -> f64 {
+        self.bodies.iter().map(|body| body.mass).sum()
+    }
+
     /// Checks a scene and resolves its names.
     ///
     /// # Errors
@@ -114,12 +119,7 @@ impl Model {
             return Err(ModelError::NoBodies);
         }
         let mut notes = Vec::new();
-        let mut names = HashMap::new();
-        let mut bodies = Vec::with_capacity(scene.bodies.len());
-        for (index, written) in scene.bodies.iter().enumerate() {
-            unique_name(&mut names, "bodies", index, &written.name)?;
-            bodies.push(ModelBody::new(written, index, scene.coordinates, &mut notes)?);
-        }
+        let (names, mut bodies) = read_bodies(scene, &mut notes)?;
         // Joints and drivers share one space of names: both label rows.
         let mut row_names = HashMap::new();
         let (joints, mut starts) = read_joints(scene, &names, &bodies, &mut row_names, &mut notes)?;
@@ -141,7 +141,13 @@ impl Model {
         })?;
         let mut drivers = Vec::with_capacity(scene.drivers.len());
         for (index, written) in scene.drivers.iter().enumerate() {
-            unique_name(&mut row_names, "drivers", index, written.name())?;
+            unique_name(
+                &mut row_names,
+                ("drivers", index),
+                written.name(),
+                joints.len() + index,
+                of_row(joints.len()),
+            )?;
             drivers.push(ModelDriver::new(written, &reader("drivers", index, written.name()))?);
         }
         let loads = read_list("loads", &scene.loads, Load::name, |index, written| {
@@ -193,6 +199,20 @@ fn driven_from(
     angles.collect()
 }
 
+/// The bodies of a scene, and the places of their names.
+fn read_bodies(
+    scene: &Scene,
+    notes: &mut Vec<String>,
+) -> Result<(HashMap<String, usize>, Vec<ModelBody>), ModelError> {
+    let mut names = HashMap::new();
+    let mut bodies = Vec::with_capacity(scene.bodies.len());
+    for (index, written) in scene.bodies.iter().enumerate() {
+        unique_name(&mut names, ("bodies", index), &written.name, index, |k| format!("bodies[{k}]"))?;
+        bodies.push(ModelBody::new(written, index, scene.coordinates, notes)?);
+    }
+    Ok((names, bodies))
+}
+
 /// The joints of a scene, and the starts of those that have one. A gear refers to joints that stand before it.
 fn read_joints(
     scene: &Scene,
@@ -204,7 +224,7 @@ fn read_joints(
     let mut joints = Vec::with_capacity(scene.joints.len());
     let mut starts = Vec::new();
     for (index, written) in scene.joints.iter().enumerate() {
-        unique_name(row_names, "joints", index, &written.name)?;
+        unique_name(row_names, ("joints", index), &written.name, index, |k| format!("joints[{k}]"))?;
         let (list, name) = ("joints", written.name.as_str());
         let joint = {
             let duration = scene.simulation.duration;
@@ -227,23 +247,35 @@ fn read_list<'a, W, R>(
     let mut names = HashMap::new();
     let mut elements = Vec::with_capacity(written.len());
     for (index, written) in written.iter().enumerate() {
-        unique_name(&mut names, list, index, name(written))?;
+        unique_name(&mut names, (list, index), name(written), index, |k| format!("{list}[{k}]"))?;
         elements.push(read(index, written)?);
     }
     Ok(elements)
 }
 
+/// Where a joint or, behind them, a driver stands.
+fn of_row(joints: usize) -> impl Fn(usize) -> String {
+    move |number| match number.checked_sub(joints) {
+        None => format!("joints[{number}]"),
+        Some(driver) => format!("drivers[{driver}]"),
+    }
+}
+
+/// Keeps the number of a name; `place` tells where that with a number stands.
 fn unique_name(
     names: &mut HashMap<String, usize>,
-    list: &'static str,
-    index: usize,
+    (list, index): (&'static str, usize),
     name: &str,
+    number: usize,
+    place: impl Fn(usize) -> String,
 ) -> Result<(), ModelError> {
-    if name.is_empty() || name == crate::scene::GROUND {
+    if name.is_empty() || name == crate::scene::GROUND || name.contains(char::is_control) {
         return Err(ModelError::ReservedName { list, index, name: name.to_owned() });
     }
-    match names.insert(name.to_owned(), index) {
-        Some(first) => Err(ModelError::DuplicateName { list, index, first, name: name.to_owned() }),
+    match names.insert(name.to_owned(), number) {
+        Some(first) => {
+            Err(ModelError::DuplicateName { list, index, first: place(first), name: name.to_owned() })
+        }
         None => Ok(()),
     }
 }

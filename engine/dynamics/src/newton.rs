@@ -27,22 +27,22 @@ pub struct AsWanted<'a, P> {
     /// The state.
     pub on: P,
     /// Whether somebody waits for it.
-    pub still: &'a dyn Fn() -> bool,
+    pub wanted: &'a dyn Fn() -> bool,
 }
 
 impl<P: Projectable> Projectable for AsWanted<'_, P> {
     fn linearize(&mut self) {
-        if (self.still)() {
+        if (self.wanted)() {
             self.on.linearize();
         }
     }
 
     fn correct_positions(&mut self) -> f64 {
-        if (self.still)() { self.on.correct_positions() } else { f64::NAN }
+        if (self.wanted)() { self.on.correct_positions() } else { f64::NAN }
     }
 
     fn correct_velocities(&mut self) -> f64 {
-        if (self.still)() { self.on.correct_velocities() } else { f64::NAN }
+        if (self.wanted)() { self.on.correct_velocities() } else { f64::NAN }
     }
 }
 
@@ -168,11 +168,11 @@ mod tests {
     #[test]
     fn it_stops_where_nobody_waits_for_it() {
         let asked = std::cell::Cell::new(0);
-        let still = || {
+        let wanted = || {
             asked.set(asked.get() + 1);
             asked.get() < 4
         };
-        let mut on = AsWanted { on: Root { x: 1.0, slope: 2.5, linearized: 0 }, still: &still };
+        let mut on = AsWanted { on: Root { x: 1.0, slope: 2.5, linearized: 0 }, wanted: &wanted };
         let projected = project_positions(&mut on, &RULE, 1.0);
         assert_eq!((projected.ending, projected.corrections, on.on.linearized), (Ending::Diverged, 2, 2));
         assert!(on.on.x < 2.0, "it is left as it is");

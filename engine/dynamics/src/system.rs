@@ -54,6 +54,7 @@ use nalgebra::Vector3;
 use std::collections::HashMap;
 use std::ops::{Index, Range};
 use std::sync::Arc;
+use triad_linalg::larger_or_nan;
 
 /// Longest arm, in radii of gyration, below which a mechanism has none: what rounding leaves of a hub in the centre of mass is no
 /// length of a wheel.
@@ -231,7 +232,7 @@ impl System {
     /// The longest arm; of a mechanism without arms, or with such as rounding leaves, the largest radius of gyration or, if that is
     /// less, distance between points of joints and loads at the start.
     fn characteristic_length(&self) -> f64 {
-        let arm = self.arms().into_iter().fold(0.0, f64::max);
+        let arm = self.arms(Vector3::norm).into_iter().fold(0.0, f64::max);
         let radius = |body: &ModelBody| (body.principal.max() / body.mass).sqrt();
         let radius = self.model.bodies.iter().map(radius).fold(0.0, f64::max);
         if arm > 0.0 && arm >= NO_ARM * radius {
@@ -257,12 +258,12 @@ impl System {
         }
     }
 
-    /// Largest distance of a point of each body's joints and loads from its centre of mass, m.
-    fn arms(&self) -> Vec<f64> {
+    /// Longest arm of each body's joints and loads, m, each of this length for where its point is from the centre of mass.
+    fn arms(&self, length: impl Fn(&Vector3<f64>) -> f64) -> Vec<f64> {
         let mut arms = vec![0.0f64; self.model.bodies.len()];
         for feature in self.features.iter().filter(|f| f.point) {
             if let BodyRef::Moving(body) = feature.body {
-                arms[body] = arms[body].max(feature.local.norm());
+                arms[body] = arms[body].max(length(&feature.local));
             }
         }
         arms
@@ -270,7 +271,7 @@ impl System {
 
     fn add_bodies(&mut self) {
         let layouts = sharing::layouts(&self.model);
-        let arms = self.arms();
+        let arms = self.arms(Vector3::norm);
         let least = least_inertia(self.model.bodies.iter().map(|body| &body.principal));
         for ((body, layout), arm) in self.model.bodies.iter().zip(layouts).zip(arms) {
             self.bodies.push(RigidBody::new(body, layout, arm, self.length, least));
@@ -284,7 +285,7 @@ impl System {
     #[must_use]
     pub fn in_lengths(&self) -> Self {
         let mut system = self.clone();
-        for (body, arm) in system.bodies.iter_mut().zip(self.arms()) {
+        for (body, arm) in system.bodies.iter_mut().zip(self.arms(Vector3::norm)) {
             body.measure_lengths(arm, self.length);
         }
         system
@@ -401,7 +402,7 @@ impl System {
             let turned = (0..3).map(|k| (a.e[k] - b.e[k]).norm()).fold(0.0, f64::max);
             (a.r - b.r).norm().max(self.length * turned)
         });
-        ways.fold(0.0, |most, way| if way <= most { most } else { way })
+        ways.fold(0.0, larger_or_nan)
     }
 }
 

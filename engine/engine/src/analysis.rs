@@ -19,12 +19,12 @@ mod momenta;
 mod stability;
 mod stage;
 
-pub use assembly::{Assembly, Placement, assemble, assemble_if};
-pub use equilibrium::{Equilibrium, equilibrium, equilibrium_if};
+pub use assembly::{Assembly, Placement, assemble, assemble_while};
+pub use equilibrium::{Equilibrium, equilibrium, equilibrium_while};
 pub use idle::IdleTurns;
 pub use inertia::TurnsWithoutInertia;
-pub use kinematics::{KinematicState, Kinematics, kinematics, kinematics_if};
-pub use modes::{Mode, ModeShape, Modes, ModesAbout, SteadyMotion, modes, modes_if};
+pub use kinematics::{KinematicState, Kinematics, kinematics, kinematics_while};
+pub use modes::{Mode, ModeShape, Modes, ModesAbout, SteadyMotion, modes, modes_while};
 #[doc(hidden)]
 pub use stage::Stage;
 pub use wanted::Wanted;

@@ -14,6 +14,7 @@ mod cause;
 mod errors;
 mod events;
 mod explain;
+mod lent_inertia;
 mod notes;
 mod outputs;
 mod queries;
@@ -39,6 +40,7 @@ use crate::model::{CustomLoadError, Model};
 use crate::scene::IntegratorKind;
 use companion::Companion;
 use examiner::Examiner;
+use lent_inertia::LentInertia;
 use notes::Notes;
 use seen::Seen;
 use singularity::SingularityMonitor;
@@ -82,15 +84,17 @@ pub struct Simulation {
     seen: Seen,
     /// Whether neither drivers nor loads without potential act.
     conservative: bool,
-    /// Whether something may turn a body about an axis about which it has no inertia.
-    may_lose_balance: bool,
-    /// Their work up to the start of the last step, J.
+    /// Bodies without inertia about some axis.
+    lent_inertia: LentInertia,
+    /// Work of drivers and of loads without potential up to the start of the last step, J.
     work: f64,
     scratch: Vec<f64>,
     /// Steps, rejected ones included, after which the run stops.
     step_limit: u64,
     /// Events found so far, in the order of time.
     occurrences: Vec<EventOccurrence>,
+    /// How many of them have been judged by the estimate.
+    judged_events: usize,
     /// See [`Simulation::off_at_start`].
     off_at_start: OnceLock<f64>,
     /// For each event, its quantity less the value that triggers it, and the rate of that, at the end of the last step.
@@ -266,20 +270,15 @@ impl Simulation {
             return Err(EngineError::StepLimit { time, steps, last });
         }
         self.work += self.work_of_last_step(self.integrator.last().t);
+        self.judge_events(self.integrator.last().t);
         if let Some(companion) = &mut self.companion {
             companion.keep_up(&self.integrator);
         }
         self.step_integrator(end)?;
-        if self.may_lose_balance {
-            let last = self.integrator.last();
-            let balance = self.mechanism.check_balance(last.t, &last.y);
-            balance.map_err(|error| self.left_constraints(error))?;
-        }
-        if self.seen.hardly_inert.is_none() && self.mechanism.system.regularizes_inertia() {
-            let last = self.integrator.last();
-            let bodies = self.mechanism.hardly_inert(last.t, &last.y);
-            self.seen.hardly_inert = (!bodies.is_empty()).then_some((last.t, bodies));
-        }
+        let Self { mechanism, integrator, lent_inertia, .. } = &mut *self;
+        let last = integrator.last();
+        let looked = lent_inertia.look(mechanism, last.t, &last.y);
+        looked.map_err(|error| self.left_constraints(error))?;
         self.seen.step(&self.mechanism.system, self.integrator.last(), self.work);
         self.find_events();
         if !self.model().settings.skip.reports {
@@ -318,7 +317,7 @@ impl Simulation {
             }
             let Self { integrator, mechanism, singularities, .. } = &mut *self;
             let Some(shorter) = singularities.step(mechanism, integrator) else { break };
-            integrator.take_back(mechanism);
+            integrator.take_back_to_search(mechanism);
             until = shorter;
             if self.singularities.is_resolving() && self.before_branching.is_none() {
                 self.before_branching = Some(Box::new(self.clone()));
@@ -405,6 +404,7 @@ impl Simulation {
 
     /// Makes the state at a time within the last step, not after the end of the run, the current one.
     fn set_current_time(&mut self, t: f64) {
+        self.judge_events(t);
         let Self { mechanism, integrator, companion, current, end, .. } = self;
         let t = t.min(*end);
         current.replace(mechanism, t, |mechanism, y| integrator.interpolate(mechanism, t, y));

@@ -5,7 +5,7 @@ use triad_engine::EngineError;
 use triad_engine::catalogue;
 use triad_engine::run::Simulation;
 use triad_engine::state::BodyFrame;
-use triad_scene::{ConstraintMethod, IntegratorKind, Scene};
+use triad_scene::{IntegratorKind, Scene};
 
 /// Tolerance of the run that errors are measured with.
 const TIGHTEST: f64 = 1e-13;
@@ -129,10 +129,7 @@ pub fn in_the_way(scene: &Scene, way: &str) -> Option<Scene> {
 fn truth(scene: &Scene, integrator: IntegratorKind) -> Scene {
     let mut tight = scene.clone();
     let settings = &mut tight.simulation;
-    settings.tolerance = TIGHTEST;
-    settings.integrator = integrator;
-    settings.constraint_method = ConstraintMethod::Projection;
-    settings.step = None;
+    settings.compare_by(integrator, TIGHTEST);
     settings.error_estimate = false;
     tight
 }

@@ -16,6 +16,8 @@ use triad_engine::model::Model;
 use triad_engine::run::{Column, Outputs, Simulation};
 use triad_scene::WrittenScene;
 
+/// Most sentences of different wording that are told of the runs of a sweep.
+const MOST_NOTES: usize = 20;
 /// Steps between two looks at whether the sweep is to end.
 const PIECE: u64 = 256;
 /// Most threads: so many that starting them takes the machine's memory help nobody.
@@ -43,6 +45,8 @@ pub struct Reached {
     pub evaluations: u64,
     /// How many things speak against the result.
     pub doubts: usize,
+    /// What was found or corrected when the run began.
+    pub notes: Vec<String>,
 }
 
 /// The runs of a sweep that were done, in the order of the plan.
@@ -58,6 +62,26 @@ pub struct Sweep {
     pub note: Option<&'static str>,
     /// The runs; those that were cancelled are left out.
     pub runs: Vec<SweepRun>,
+}
+
+impl Sweep {
+    /// What was found or corrected when runs began: of sentences that differ in numbers alone the first, with the number of the run and of those
+    /// that say the like.
+    pub fn notes(&self) -> Vec<(&str, usize, usize)> {
+        let mut told: Vec<(String, (&str, usize, usize))> = Vec::new();
+        for run in &self.runs {
+            for note in run.result.iter().flat_map(|reached| &reached.notes) {
+                let words: String =
+                    note.chars().filter(|c| !c.is_ascii_digit() && !"+-.e".contains(*c)).collect();
+                if let Some((_, (.., runs))) = told.iter_mut().find(|(known, _)| *known == words) {
+                    *runs += 1;
+                } else if told.len() < MOST_NOTES {
+                    told.push((words, (note, run.index, 1)));
+                }
+            }
+        }
+        told.into_iter().map(|(_, note)| note).collect()
+    }
 }
 
 /// How a sweep is watched: both are called from many threads.
@@ -157,6 +181,7 @@ impl<W: Watch> SharedParts<'_, W> {
         self.outputs.write(&run, &mut outputs);
         let summary = run.summary();
         let (evaluations, doubts) = (summary.evaluations, summary.doubts.len());
-        Some(Ok(Reached { time: run.time(), outputs, evaluations, doubts }))
+        let notes = run.notes().to_vec();
+        Some(Ok(Reached { time: run.time(), outputs, evaluations, doubts, notes }))
     }
 }

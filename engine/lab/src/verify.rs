@@ -3,7 +3,7 @@
 use serde::Serialize;
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
-use triad_scene::{ConstraintMethod, IntegratorKind, Scene};
+use triad_scene::{IntegratorKind, Scene};
 
 /// Tolerance of the second solution over that of the first.
 const TIGHTER: f64 = 1e-3;
@@ -127,11 +127,8 @@ impl Verifier {
         let by_first = first.summary().integrator;
         let has_series = first.system().frictions.is_empty();
         let asked = settings.tolerance;
-        settings.tolerance = (asked * TIGHTER).max(TIGHTEST);
-        settings.constraint_method = ConstraintMethod::Projection;
-        settings.step = None;
+        settings.compare_by(another(by_first, has_series), (asked * TIGHTER).max(TIGHTEST));
         settings.error_estimate = true;
-        settings.integrator = another(by_first, has_series);
         let mut second = Simulation::new(&scene)?;
         if second.summary().integrator == by_first && scene.simulation.tolerance * APART > asked {
             scene.simulation.tolerance = asked * APART;

@@ -23,6 +23,22 @@ pub const fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
+/// The larger of two numbers; none is larger than any.
+#[inline(always)]
+pub const fn larger_or_nan(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}
+
+/// The largest |xᵢ|; those that are none are passed over.
+pub fn largest_size(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |most, x| larger(most, x.abs()))
+}
+
+/// The largest |aᵢ − bᵢ|; those that are none are passed over.
+pub fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |most, (a, b)| larger(most, (a - b).abs()))
+}
+
 /// Raises each of L numbers to the size of the one beside it, where that is larger; those that are none raise nothing.
 ///
 /// No compiler takes the vectors of WebAssembly for it by itself, because it may not leave out what comparisons say of numbers

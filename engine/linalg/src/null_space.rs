@@ -13,11 +13,15 @@ const EQUAL: f64 = 1e-10;
 /// At each step the row with the largest part across those already taken is taken; rows whose largest part is below
 /// `tolerance` times the length of the longest row depend on the others. Among equals the last row wins.
 pub fn independent_rows(matrix: &DMatrix<f64>, tolerance: f64) -> Vec<usize> {
-    independent_rows_if(matrix, tolerance, &|| true)
+    independent_rows_while(matrix, tolerance, &|| true)
 }
 
 /// As [`independent_rows`], as long as that is wanted: otherwise those that were found.
-pub fn independent_rows_if(matrix: &DMatrix<f64>, tolerance: f64, still: &dyn Fn() -> bool) -> Vec<usize> {
+pub fn independent_rows_while(
+    matrix: &DMatrix<f64>,
+    tolerance: f64,
+    wanted: &dyn Fn() -> bool,
+) -> Vec<usize> {
     // Columns are contiguous: work on the transpose, one column for each row.
     let mut rest = matrix.transpose();
     let count = rest.ncols();
@@ -26,7 +30,7 @@ pub fn independent_rows_if(matrix: &DMatrix<f64>, tolerance: f64, still: &dyn Fn
     let longest = norms.iter().fold(0.0f64, |a, b| a.max(*b));
     let smallest = tolerance * tolerance * longest;
     let mut taken = Vec::with_capacity(count.min(rest.nrows()));
-    while let Some((place, norm)) = largest(&left, &norms).filter(|_| still()) {
+    while let Some((place, norm)) = largest(&left, &norms).filter(|_| wanted()) {
         // Near its end the updated norm is rounding; the column itself knows better.
         let row = left[place];
         let true_norm = rest.column(row).norm_squared();

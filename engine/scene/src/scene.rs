@@ -174,6 +174,8 @@ impl Scene {
         if text.len() > MAX_TEXT {
             return Err(SceneError::TooLong { bytes: text.len() });
         }
+        // Some editors begin a text with a mark of its encoding.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         // The place of every value is kept only to say where a text is wrong: it takes as long as reading.
         let scene: Self = serde_json::from_str(text).or_else(|_| Self::from_json_with_places(text))?;
         scene.check_sizes()?;

@@ -41,6 +41,14 @@ impl Settings {
         OutputTimes::new(self.every, self.duration)
     }
 
+    /// Has rigid joints held by projection, and steps of one integrator as long as a tolerance allows, whatever was asked for: for a run that
+    /// another one is compared with.
+    pub fn compare_by(&mut self, integrator: IntegratorKind, tolerance: f64) {
+        self.constraint_method = ConstraintMethod::Projection;
+        self.step = None;
+        (self.integrator, self.tolerance) = (integrator, tolerance);
+    }
+
     /// Whether its outputs hold estimated errors.
     pub fn tells_errors(&self) -> bool {
         self.outputs.iter().any(|output| output.kind == OutputKind::Errors)

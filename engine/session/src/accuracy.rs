@@ -73,7 +73,7 @@ pub(crate) struct Known {
     pub accuracy: Option<Accuracy>,
     /// From when on they are not known, s.
     pub error_unknown_from: Option<f64>,
-    /// Change of the energy since the start, J, where it is known.
+    /// Energy less that of the start and the work of drivers and of loads without potential since, J, where it is known.
     pub energy_drift: Option<f64>,
     /// What was found or corrected, and what speaks against the result.
     pub notes: Vec<String>,

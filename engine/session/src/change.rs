@@ -170,7 +170,7 @@ impl Drag {
             let detail = format!("there is no body \"{}\"", self.body);
             return Err(wrong("/body", detail, suggest(&self.body, names)));
         };
-        let total: f64 = model.bodies.iter().map(|body| body.mass).sum();
+        let total = model.mass();
         let rate = std::f64::consts::TAU / DRAG_PERIOD;
         let stiffness = self.stiffness.unwrap_or(total * rate * rate);
         let plain =

@@ -154,7 +154,7 @@ pub struct SessionState {
     pub q_dot: Vec<f64>,
     /// Energy, J.
     pub energy: f64,
-    /// Change of the energy since the start, J.
+    /// Energy less that of the start and the work of drivers and of loads without potential since, J.
     pub energy_drift: f64,
     /// Largest violation of the position constraints.
     pub position_violation: f64,

@@ -40,9 +40,9 @@ pub(super) fn scene(
     robot: &Robot,
     side_car: &SideCar,
     left_out: &mut Vec<OmittedItem>,
-    still: &dyn Fn() -> bool,
+    wanted: &dyn Fn() -> bool,
 ) -> Result<Scene, UrdfError> {
-    check_names(robot, side_car, still)?;
+    check_names(robot, side_car, wanted)?;
     let placed = place(robot, side_car)?;
     let mut scene =
         Scene::new(slug(&robot.name)).title(robot.name.as_str()).description("Imported from a URDF.");
@@ -56,25 +56,25 @@ pub(super) fn scene(
         add_body(&mut scene, link, left_out);
     }
     for link in &placed {
-        go_on(still)?;
+        go_on(wanted)?;
         add_shapes(&mut scene, link, left_out);
         add_joint(&mut scene, link, &placed, left_out);
     }
     add_gears(&mut scene, robot, left_out);
     tell_idle_starts(robot, side_car, left_out);
     for joint in &side_car.joints {
-        go_on(still)?;
+        go_on(wanted)?;
         scene.joints.push(closing(joint, &placed));
     }
     Ok(scene)
 }
 
-fn check_names(robot: &Robot, side_car: &SideCar, still: &dyn Fn() -> bool) -> Result<(), UrdfError> {
+fn check_names(robot: &Robot, side_car: &SideCar, wanted: &dyn Fn() -> bool) -> Result<(), UrdfError> {
     let joints: BTreeSet<&str> = robot.joints.iter().map(|joint| joint.name.as_str()).collect();
     let mut links: BTreeSet<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
     links.insert(GROUND);
     let known = |what: &'static str, names: &BTreeSet<&str>, name: &str| {
-        go_on(still)?;
+        go_on(wanted)?;
         if names.contains(name) || name.is_empty() {
             return Ok(());
         }

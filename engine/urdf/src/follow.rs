@@ -97,7 +97,7 @@ mod tests {
     use std::fmt::Write;
 
     use super::*;
-    use crate::{MAX_LINKS, SideCar, import, import_if};
+    use crate::{MAX_LINKS, SideCar, import, import_while};
 
     /// A row of links, each on the one before, whose joints follow the one that `leader` says.
     fn robot(links: usize, leader: impl Fn(usize) -> Option<usize>) -> String {
@@ -137,7 +137,7 @@ mod tests {
         let (text, asked) = (robot(200, |_| None), std::cell::Cell::new(0));
         let leaves_after = |most: usize| {
             asked.set(0);
-            import_if(&text, &SideCar::default(), &|| {
+            import_while(&text, &SideCar::default(), &|| {
                 asked.set(asked.get() + 1);
                 asked.get() <= most
             })

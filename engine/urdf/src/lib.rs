@@ -53,7 +53,7 @@ pub struct Imported {
 /// # Ok::<(), triad_urdf::UrdfError>(())
 /// ```
 pub fn import(text: &str, side_car: &SideCar) -> Result<Imported, UrdfError> {
-    import_if(text, side_car, &|| true)
+    import_while(text, side_car, &|| true)
 }
 
 /// As [`import`], as long as it is wanted.
@@ -61,13 +61,17 @@ pub fn import(text: &str, side_car: &SideCar) -> Result<Imported, UrdfError> {
 /// # Errors
 ///
 /// As [`import`], and [`UrdfError::NoLongerWanted`].
-pub fn import_if(text: &str, side_car: &SideCar, still: &dyn Fn() -> bool) -> Result<Imported, UrdfError> {
+pub fn import_while(
+    text: &str,
+    side_car: &SideCar,
+    wanted: &dyn Fn() -> bool,
+) -> Result<Imported, UrdfError> {
     if text.len() > MAX_TEXT {
         return Err(UrdfError::TooLong { bytes: text.len() });
     }
     let mut left_out = Vec::new();
-    let robot = read::robot(text, &mut left_out, still)?;
-    let scene = convert::scene(&robot, side_car, &mut left_out, still)?;
+    let robot = read::robot(text, &mut left_out, wanted)?;
+    let scene = convert::scene(&robot, side_car, &mut left_out, wanted)?;
     left_out.sort_by_key(|item| item.line);
     Ok(Imported { scene, left_out })
 }

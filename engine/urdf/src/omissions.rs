@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Goes on as long as somebody waits.
-pub(crate) fn go_on(still: &dyn Fn() -> bool) -> Result<(), UrdfError> {
-    if still() { Ok(()) } else { Err(UrdfError::NoLongerWanted) }
+pub(crate) fn go_on(wanted: &dyn Fn() -> bool) -> Result<(), UrdfError> {
+    if wanted() { Ok(()) } else { Err(UrdfError::NoLongerWanted) }
 }
 
 /// Bytes of a URDF.

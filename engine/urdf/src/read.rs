@@ -93,9 +93,9 @@ impl Report<'_> {
 pub(super) fn robot(
     text: &str,
     left_out: &mut Vec<OmittedItem>,
-    still: &dyn Fn() -> bool,
+    wanted: &dyn Fn() -> bool,
 ) -> Result<Robot, UrdfError> {
-    go_on(still)?;
+    go_on(wanted)?;
     bound_attributes(text)?;
     let options = ParsingOptions { nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options)
@@ -109,7 +109,7 @@ pub(super) fn robot(
     let mut robot =
         Robot { name: attribute(root, "name")?.to_owned(), links: Vec::new(), joints: Vec::new() };
     for node in root.children().filter(Node::is_element) {
-        go_on(still)?;
+        go_on(wanted)?;
         match node.tag_name().name() {
             "link" => robot.links.push(link(node, &mut report)?),
             "joint" => robot.joints.push(joint(node, &mut report)?),

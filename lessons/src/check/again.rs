@@ -8,6 +8,8 @@ use crate::answers::tolerance::{ValueShape, distance, norm};
 use crate::exercise::{Formula, Parameters, QuantityQuestion, Question, QuestionBody, numbers};
 use crate::files::{AgainFile, ProvenanceKind};
 
+/// Part of a question's tolerance within which another computation of its reference agrees.
+pub(super) const OF_TOLERANCE: f64 = 0.1;
 /// How well a formula and the number that another computation gave for it agree, relative.
 const AGREEMENT: f64 = 1e-5;
 
@@ -57,7 +59,7 @@ fn quantity(id: &str, q: &QuantityQuestion, again: &AgainFile, found: &mut Findi
     match numbers(&again.value, q.shape, &Parameters::default()) {
         Ok(second) if second.values.len() == q.reference.len() => {
             let difference = distance(&second.values, &q.reference);
-            if difference > 0.1 * q.tolerance.allowed(norm(&q.reference)) {
+            if difference > OF_TOLERANCE * q.tolerance.allowed(norm(&q.reference)) {
                 let what = format!(
                     "its reference is {:?} with the default numbers, again {:?}",
                     q.reference, second.values

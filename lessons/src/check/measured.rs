@@ -8,7 +8,7 @@ use thiserror::Error;
 use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
 
-use super::again::value_at;
+use super::again::{OF_TOLERANCE, value_at};
 use super::findings::Findings;
 use crate::answers::tolerance::{distance, norm};
 use crate::exercise::{Formula, QuestionBody, named};
@@ -86,8 +86,13 @@ fn compare(found: &Findings, id: &str, value: &[f64], error: f64) -> Result<(), 
         return Err(Disagreement::Size);
     }
     let difference = distance(&value, &quantity.reference);
-    let allowed = 0.1 * quantity.tolerance.allowed(norm(&quantity.reference));
+    let allowed = OF_TOLERANCE * quantity.tolerance.allowed(norm(&quantity.reference));
     let error = error / quantity.unit.factor;
+    agree(value, difference, error, allowed)
+}
+
+/// Whether a difference, and an error, are no more than is allowed.
+fn agree(value: Vec<f64>, difference: f64, error: f64, allowed: f64) -> Result<(), Disagreement> {
     if difference > allowed {
         Err(Disagreement::Value { value, allowed, difference })
     } else if error > allowed {
@@ -111,11 +116,5 @@ fn compare_formula(
     let at = places.and_then(|places| named::numbers(places, &lesson.scene, &lesson.parameters).ok());
     let expected = at.and_then(|at| value_at(formula, &at)).ok_or(Disagreement::NoSymbols)?;
     let (difference, allowed) = ((value - expected).abs(), FORMULA * expected.abs());
-    if difference > allowed {
-        Err(Disagreement::Value { value: vec![*value], allowed, difference })
-    } else if error > allowed {
-        Err(Disagreement::Uncertain { error, allowed })
-    } else {
-        Ok(())
-    }
+    agree(vec![*value], difference, error, allowed)
 }

@@ -215,7 +215,7 @@ mod tests {
 
     use crate::answers::{RunSettings, Submission, TypedValue};
     use crate::exercise::Tuning;
-    use crate::{Course, grade_if};
+    use crate::{Course, grade_while};
 
     #[test]
     fn what_was_asked_for_longest_ago_is_forgotten_and_what_ended_early_is_not_kept() {
@@ -253,7 +253,7 @@ mod tests {
             let answer = Answer { file: Some(table(swing)), ..Answer::default() };
             let answers = BTreeMap::from([("your-run".to_owned(), answer)]);
             let submission = Submission { answers, ..Submission::default() };
-            let verdict = grade_if(lesson, &submission, &known, &Wanted::default()).unwrap();
+            let verdict = grade_while(lesson, &submission, &known, &Wanted::default()).unwrap();
             assert_eq!(verdict, crate::grade(lesson, &submission).unwrap());
             known.computed()
         };
@@ -276,7 +276,7 @@ mod tests {
             let answer = Answer { settings: Some(settings.clone()), ..Answer::default() };
             let answers = BTreeMap::from([(id.clone(), answer)]);
             let submission = Submission { answers, ..Submission::default() };
-            let verdict = grade_if(&own, &submission, &known, &Wanted::default()).unwrap();
+            let verdict = grade_while(&own, &submission, &known, &Wanted::default()).unwrap();
             assert_eq!(verdict, crate::grade(&own, &submission).unwrap());
             known.computed()
         };

@@ -78,19 +78,19 @@ impl GradeError {
 ///
 /// Errors if it answers a question that does not exist.
 pub fn grade(lesson: &Lesson, submission: &Submission) -> Result<Verdict, GradeError> {
-    grade_if(lesson, submission, &Known::default(), &Wanted::default())
+    grade_while(lesson, submission, &Known::default(), &Wanted::default())
 }
 
 /// As [`grade`], by what is known, as long as the verdict is wanted.
 ///
 /// Errors as [`grade`] does, and where it is no longer wanted.
-pub fn grade_if(
+pub fn grade_while(
     lesson: &Lesson,
     submission: &Submission,
     known: &Known,
     wanted: &Wanted,
 ) -> Result<Verdict, GradeError> {
-    let mut judgements = judge_if(lesson, submission, known, wanted)?;
+    let mut judgements = judge_while(lesson, submission, known, wanted)?;
     if judgements.iter().any(|judgement| judgement.mark == Mark::Invalid) {
         // Nobody tries answers one by one beside a field that cannot be read.
         for judgement in
@@ -137,11 +137,11 @@ pub fn asked(lesson: &Lesson, submission: &Submission) -> Result<(), GradeError>
 
 /// Judges every question of the lesson, in order.
 pub(crate) fn judge(lesson: &Lesson, submission: &Submission) -> Result<Vec<Judgement>, GradeError> {
-    judge_if(lesson, submission, &Known::default(), &Wanted::default())
+    judge_while(lesson, submission, &Known::default(), &Wanted::default())
 }
 
 /// As [`judge`], by what is known, as long as that is wanted.
-fn judge_if(
+fn judge_while(
     lesson: &Lesson,
     submission: &Submission,
     known: &Known,

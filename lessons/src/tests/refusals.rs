@@ -187,7 +187,7 @@ fn grades_met() -> Refusals<GradeError> {
     wanted.no_longer();
     let lesson = course.lesson("simple-pendulum").unwrap();
     let error =
-        crate::grade_if(lesson, &Submission::default(), &crate::Known::default(), &wanted).unwrap_err();
+        crate::grade_while(lesson, &Submission::default(), &crate::Known::default(), &wanted).unwrap_err();
     grades.meet("a verdict that nobody waits for", &error, error.code(), None, "");
     grades
 }

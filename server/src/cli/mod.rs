@@ -281,14 +281,19 @@ enum Command {
 pub fn main() -> ExitCode {
     let words: Vec<OsString> = std::env::args_os().collect();
     let json = words.iter().any(|word| word == "--json");
-    match understood(words).and_then(dispatch) {
+    let ended = understood(words).and_then(dispatch);
+    if let Some(why) = terminal::lost() {
+        terminal::tell(&format!("{} what was printed is not complete: {why}", terminal::error_label()));
+        return ExitCode::from(4);
+    }
+    match ended {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::No) => ExitCode::from(1),
         Err(problem) => {
             if json {
                 terminal::print_json(&problem.document());
             } else {
-                eprintln!("{} {problem}", terminal::error_label());
+                terminal::tell(&format!("{} {problem}", terminal::error_label()));
             }
             ExitCode::from(if machine_refused(&problem) { 4 } else { 3 })
         }

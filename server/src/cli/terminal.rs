@@ -1,6 +1,7 @@
 //! Printing for people and for machines.
 
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -30,13 +31,31 @@ pub(super) fn tell_on_stderr() {
     TAKEN.store(true, Ordering::Relaxed);
 }
 
-/// Prints a line; a reader that has had enough (`| head`) is no error.
+/// Why something could not be printed.
+static LOST: OnceLock<String> = OnceLock::new();
+
+/// Prints a line; a reader that has had enough (`| head`) is no error, and of any other see [`lost`].
 pub(super) fn print_line(line: &str) {
     if TAKEN.load(Ordering::Relaxed) {
-        drop(writeln!(std::io::stderr(), "{line}"));
-    } else {
-        drop(writeln!(std::io::stdout(), "{line}"));
+        tell(line);
+        return;
     }
+    let mut out = std::io::stdout();
+    if let Err(error) = writeln!(out, "{line}").and_then(|()| out.flush())
+        && error.kind() != ErrorKind::BrokenPipe
+    {
+        LOST.get_or_init(|| error.to_string());
+    }
+}
+
+/// Why what was printed is not complete, if it is not.
+pub(super) fn lost() -> Option<&'static str> {
+    LOST.get().map(String::as_str)
+}
+
+/// Tells people a line beside what is printed.
+pub(super) fn tell(line: &str) {
+    drop(writeln!(std::io::stderr(), "{line}"));
 }
 
 /// `error:`, red where colours are shown.

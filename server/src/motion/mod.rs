@@ -16,7 +16,6 @@ use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
 
 use crate::problem::Problem;
-use crate::work::still;
 use triad_engine::analysis::Wanted;
 use triad_lab::film::turn;
 use triad_session::picture::{Sample, SceneDescription, block, describe, frame_size, sample};
@@ -216,7 +215,7 @@ pub fn of(scene: &Scene, time: Duration, wanted: &Wanted) -> Result<Motion, Prob
         index += 1.0;
         let next = until * index / frames;
         loop {
-            still(wanted)?;
+            wanted.check()?;
             match run.advance_towards(next, PIECE) {
                 Ok(true) => break,
                 Ok(false) if began.elapsed() < time => {}

@@ -3,6 +3,8 @@
 mod judged;
 mod told;
 
+mod regrading;
+
 mod preview;
 
 use std::collections::HashMap;

@@ -4,56 +4,46 @@
 //! shown apart. Then with the new one, after the new verdicts on what the same person handed in before.
 
 use std::collections::{BTreeMap, HashMap, VecDeque};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::Instant;
 
 use serde_json::Value;
-use triad_engine::analysis::Wanted;
-use triad_lessons::{Computed as Made, Lesson, Verdict};
+use triad_lessons::Lesson;
 
-use super::judged::{Judged, Progress, Version, by_graders};
-use super::told::{Changed, Counts, PersonChange, Preview, SubmissionChange};
-use super::{again, first_difference, replace, stored};
+use super::judged::{Progress, Version, by_graders};
+use super::regrading::{Graded, Judges, Lessons, Regrading};
+use super::told::{Changed, Counts, PersonChange, Preview};
 use crate::aside;
 use crate::grades::{Book, Entry, assigned, case};
-use crate::grading;
 use crate::policy::{Moment, standing};
 use crate::problem::Problem;
 use crate::store::hash::sha256;
-use crate::store::{Assignment, NewRegrade, NewVerdict, Recorded, Store, StoreError, StoredSubmission};
+use crate::store::{Assignment, NewRegrade, NewVerdict, Recorded, Store, StoreError};
 use crate::variants::Variants;
-use crate::work::{Asker, still};
+use crate::work::Asker;
 
 /// Previews that are kept until they are applied: one that is pushed out is made anew.
 const KEPT: usize = 8;
 /// Bars of a histogram.
 const BARS: u32 = 10;
 
-/// A submission that was graded again.
-#[derive(Debug, Clone)]
-struct Graded {
-    record: Recorded,
-    change: SubmissionChange,
-    body: Option<Value>,
-}
-
 /// A preview with all that is needed to apply it.
 #[derive(Debug)]
-pub struct Computed {
+pub struct PreparedRegrade {
     /// What is shown.
     pub shown: Preview,
     people: Vec<(PersonChange, Vec<Graded>)>,
     bundle: String,
     verdicts: usize,
     /// What this program computed for it: none where graders did.
-    pub made: Made,
+    pub made: triad_lessons::Computed,
 }
 
 /// Previews that are being made, and those that were made and not applied yet.
 #[derive(Debug, Default)]
 pub struct Previews {
-    kept: Mutex<VecDeque<Arc<Computed>>>,
+    kept: Mutex<VecDeque<Arc<PreparedRegrade>>>,
     /// By lesson; of two of one lesson the later is told of.
     coming: Mutex<HashMap<String, Weak<Progress>>>,
 }
@@ -75,7 +65,7 @@ impl Previews {
     }
 
     /// Keeps one.
-    pub fn keep(&self, computed: Computed) -> Arc<Computed> {
+    pub fn keep(&self, computed: PreparedRegrade) -> Arc<PreparedRegrade> {
         let computed = Arc::new(computed);
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         kept.push_back(Arc::clone(&computed));
@@ -88,14 +78,14 @@ impl Previews {
     /// The one of that name.
     ///
     /// Errors if it is not kept any more.
-    pub fn get(&self, id: &str) -> Result<Arc<Computed>, Problem> {
+    pub fn get(&self, id: &str) -> Result<Arc<PreparedRegrade>, Problem> {
         let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let found = kept.iter().find(|one| one.shown.id == id).cloned();
         Ok(found.ok_or(StoreError::Unknown("preview of a regrade, or it is too old"))?)
     }
 }
 
-impl Computed {
+impl PreparedRegrade {
     /// The verdicts of a submission before and after.
     ///
     /// Errors if it is not among those that were graded again.
@@ -138,7 +128,7 @@ pub async fn preview(
     course: &str,
     lesson: &Lesson,
     progress: Arc<Progress>,
-) -> Result<Computed, Problem> {
+) -> Result<PreparedRegrade, Problem> {
     let started = Instant::now();
     let book = Book::open(store, course, None, Some(&lesson.slug)).await?;
     let assignment = book.assignment(&lesson.slug).cloned().unwrap_or_else(|| Assignment::of(&lesson.slug));
@@ -166,10 +156,10 @@ pub async fn preview(
     // Whoever leaves drops the asker.
     let (_asker, wanted) = Asker::new();
     let again = move || {
-        // Of both versions, by all threads: what the change of the lesson does not touch is computed once.
-        let variants = Variants::default();
-        let graded = all_again(&by_person(records), &lessons, &judges, &variants, &wanted);
-        still(&wanted).map(|()| (graded, variants.known.computed()))
+        let regrading = Regrading { lessons, judges, variants: Variants::default(), wanted: &wanted };
+        let graded = regrading.everybody(&by_person(records));
+        wanted.check()?;
+        Ok((graded, regrading.variants.known.computed()))
     };
     let (graded, made) = aside::run(again).await?;
     let now = Moment::now();
@@ -183,7 +173,7 @@ pub async fn preview(
     let all = people.iter().flat_map(|(_, graded)| graded);
     shown.of_other_versions = all.filter(|one| one.record.lesson_sha256 != version).count();
     shown.seconds = started.elapsed().as_secs_f64();
-    Ok(Computed { shown, people, bundle, verdicts, made })
+    Ok(PreparedRegrade { shown, people, bundle, verdicts, made })
 }
 
 /// What each person was told, in the order of the log.
@@ -193,168 +183,6 @@ fn by_person(records: Vec<Recorded>) -> Vec<Vec<Recorded>> {
         all.entry(record.person.clone()).or_default().push(record);
     }
     all.into_values().collect()
-}
-
-/// The lessons that judged, and the one that is to.
-struct Lessons {
-    /// By SHA-256; none where this program cannot read it.
-    old: HashMap<String, Option<Lesson>>,
-    new: Lesson,
-    /// SHA-256 of the new one.
-    version: String,
-}
-
-/// Who judges.
-enum Judges {
-    /// This program, beside those who answer.
-    Here(Arc<Progress>),
-    /// Graders have.
-    Graders(Judged),
-}
-
-impl Judges {
-    fn judge(
-        &self,
-        record: &Recorded,
-        lesson: &Lesson,
-        sha256: &str,
-        variants: &Variants,
-        wanted: &Wanted,
-    ) -> Result<Verdict, String> {
-        match self {
-            Self::Here(_) => grading::judge_again(lesson, variants, &record.answers, &record.seed, wanted),
-            Self::Graders(judged) => {
-                let found = judged.get(&(record.id.clone(), sha256.to_owned()));
-                found.cloned().unwrap_or_else(|| Err("no grader has judged it".to_owned()))
-            }
-        }
-    }
-}
-
-/// Grades again, each person by one thread: what came before decides what a later submission earns. It ends early where nobody
-/// wants it any more.
-fn all_again(
-    people: &[Vec<Recorded>],
-    lessons: &Lessons,
-    judges: &Judges,
-    variants: &Variants,
-    wanted: &Wanted,
-) -> Vec<Vec<Graded>> {
-    let next = AtomicUsize::new(0);
-    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(people.len().max(1));
-    let work = || {
-        let mut done = Vec::new();
-        while let Some(records) =
-            people.get(next.fetch_add(1, Ordering::Relaxed)).filter(|_| wanted.is_still())
-        {
-            done.push(person_again(records, lessons, judges, variants, wanted));
-            if let Judges::Here(progress) = judges {
-                progress.done.fetch_add(records.len(), Ordering::Relaxed);
-            }
-        }
-        done
-    };
-    std::thread::scope(|scope| {
-        // They step back as the thread does that starts them.
-        let started: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        // Nobody is left out in silence: what fails in one fails the preview.
-        started
-            .into_iter()
-            .flat_map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
-            .collect()
-    })
-}
-
-fn person_again(
-    records: &[Recorded],
-    lessons: &Lessons,
-    judges: &Judges,
-    variants: &Variants,
-    wanted: &Wanted,
-) -> Vec<Graded> {
-    let mut known: Vec<StoredSubmission> = Vec::new();
-    let mut graded: Vec<Graded> = Vec::new();
-    for record in records {
-        let earlier = replace(&mut known, record);
-        let sha256 = record.lesson_sha256.as_str();
-        let lesson = lessons.old.get(sha256).and_then(Option::as_ref);
-        let judge = |lesson: &Lesson| judges.judge(record, lesson, sha256, variants, wanted);
-        let control = (!sha256.is_empty()).then(|| again(record, lesson, judge, earlier));
-        let place = graded.iter().position(|one| one.record.id == record.id).unwrap_or(graded.len());
-        let told: Vec<StoredSubmission> = graded[..place].iter().map(newly_stored).collect();
-        let judge = |lesson: &Lesson| judges.judge(record, lesson, &lessons.version, variants, wanted);
-        let now = again(record, Some(&lessons.new), judge, told).ok();
-        let change = submission_change(record, control, now.as_ref());
-        let one = Graded { record: record.clone(), change, body: now };
-        match graded.get_mut(place) {
-            Some(before) => *before = one,
-            None => graded.push(one),
-        }
-    }
-    graded
-}
-
-/// A submission with its new verdict, or with the one of before where there is none.
-fn newly_stored(one: &Graded) -> StoredSubmission {
-    let before = stored(&one.record);
-    StoredSubmission { verdict: one.body.clone().unwrap_or(before.verdict), ..before }
-}
-
-fn submission_change(
-    record: &Recorded,
-    control: Option<Result<Value, String>>,
-    now: Option<&Value>,
-) -> SubmissionChange {
-    let kept: Value = serde_json::from_str(&record.body).unwrap_or_default();
-    let program = match &control {
-        Some(Ok(control)) if record.body.as_str() == control.to_string().as_str() => None,
-        Some(Ok(control)) => first_difference(&kept, control, ""),
-        Some(Err(why)) => Some(why.clone()),
-        None => None,
-    };
-    // What the lesson changes is what differs between two runs of this program.
-    let before = control.and_then(Result::ok).unwrap_or(kept);
-    let points = |verdict: &Value| verdict["earned"].as_f64().unwrap_or_default();
-    let changed = match now {
-        None => Changed::Failed,
-        Some(now) if before["gradable"] != now["gradable"] => Changed::Gradable,
-        Some(now) if points(now) > points(&before) => Changed::Up,
-        Some(now) if points(now) < points(&before) => Changed::Down,
-        Some(now) if without_version(&before) == without_version(now) => Changed::Same,
-        Some(_) => Changed::Words,
-    };
-    SubmissionChange {
-        id: record.id.clone(),
-        at: record.at,
-        changed,
-        before: points(&before),
-        after: now.map(points),
-        misconceptions: now.map(|now| misconceptions(&before, now)).unwrap_or_default(),
-        program,
-    }
-}
-
-/// A verdict without what names the version of the lesson.
-fn without_version(verdict: &Value) -> Value {
-    let mut bare = verdict.clone();
-    bare["provenance"]["lesson_hash"] = Value::Null;
-    bare
-}
-
-fn misconceptions(before: &Value, now: &Value) -> BTreeMap<String, [String; 2]> {
-    let of = |verdict: &Value| -> BTreeMap<String, String> {
-        let all = verdict["questions"].as_array().into_iter().flatten();
-        let one = |q: &Value| {
-            (
-                q["id"].as_str().unwrap_or_default().to_owned(),
-                q["slip"].as_str().unwrap_or_default().to_owned(),
-            )
-        };
-        all.map(one).collect()
-    };
-    let (mut before, now) = (of(before), of(now));
-    let pairs = now.into_iter().map(|(id, now)| (before.remove(&id).unwrap_or_default(), (id, now)));
-    pairs.filter(|(before, (_, now))| before != now).map(|(before, (id, now))| (id, [before, now])).collect()
 }
 
 fn person_change(

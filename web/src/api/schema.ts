@@ -903,7 +903,7 @@ export interface components {
             motion: components["schemas"]["Motion"];
             /** @description Unique name. */
             name: string;
-            /** @description Vector of the world. */
+            /** @description Vector of the world; one that is fixed or turns is made a unit vector. */
             reference: components["schemas"]["VectorMotion"];
             /** @constant */
             type: "angle-to-world";
@@ -920,6 +920,12 @@ export interface components {
         Equilibrium: {
             /** @description The bodies, at rest. */
             bodies: components["schemas"]["BodyFrame"][];
+            /**
+             * Format: double
+             * @description How far the bodies may be from rest, m, rotations times the mechanism's length: what is left of the forces, or their rounding, over the
+             *     stiffness. `None` where some motion meets no stiffness.
+             */
+            error?: number | null;
             /**
              * Format: uint
              * @description Steps of the search.
@@ -981,6 +987,11 @@ export interface components {
         };
         /** @description An event that has happened. */
         EventOccurrence: {
+            /**
+             * Format: double
+             * @description How far the time may be off by the estimate of the run, s: none where that is not known, and where the quantity hardly changes.
+             */
+            error?: number | null;
             /** @description Name of the event. */
             name: string;
             /**
@@ -3996,7 +4007,7 @@ export interface components {
             energy: number;
             /**
              * Format: double
-             * @description Change of the energy since the start, J.
+             * @description Energy less that of the start and the work of drivers and of loads without potential since, J.
              */
             energy_drift: number;
             /** @description Why the simulation stopped before its end; the last good state is kept. */

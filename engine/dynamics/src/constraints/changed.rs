@@ -10,7 +10,7 @@ const LARGE_PART: f64 = 0.1;
 const FITS: f64 = 1e-9;
 
 /// That velocities which violated the constraints by `rate` were changed.
-pub(super) fn told(system: &System, rate: f64, given: &[f64], found: &[f64]) -> Option<String> {
+pub(super) fn velocity_note(system: &System, rate: f64, given: &[f64], found: &[f64]) -> Option<String> {
     let n = system.coordinates;
     let changes = given[n..].iter().zip(&found[n..]).map(|(x, y)| (x - y).abs());
     let changed = changes.fold(0.0f64, f64::max);

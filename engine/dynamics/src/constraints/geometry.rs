@@ -12,7 +12,7 @@ use crate::system::System;
 use crate::system::index::{ConstraintId, IncidenceId, SolverRow};
 use nalgebra::DMatrix;
 use triad_linalg::random::Random;
-use triad_linalg::{independent_rows_if, left_null_space};
+use triad_linalg::{independent_rows_while, left_null_space};
 
 /// Relative pivot below which rounding could hide that later rows depend on others: it leaves ε over this pivot in theirs. Then the
 /// decision is taken anew with pivots in the order of their size.
@@ -62,12 +62,12 @@ impl Geometry {
 
     /// Takes the rows at the positions of a state.
     pub fn place(&mut self, state: &State) {
-        self.place_if(state, &|| true);
+        self.place_while(state, &|| true);
     }
 
     /// As [`Geometry::place`], as long as that is wanted.
-    fn place_if(&mut self, state: &State, still: &dyn Fn() -> bool) {
-        if !still() {
+    fn place_while(&mut self, state: &State, wanted: &dyn Fn() -> bool) {
+        if !wanted() {
             return;
         }
         let Self { system, elimination, .. } = self;
@@ -75,7 +75,7 @@ impl Geometry {
         self.dependent = elimination.dependent_rows(system, state, DEPENDENT);
         if elimination.least_pivot(DEPENDENT) < UNCLEAR {
             let rows = unit_rows(system, elimination);
-            let kept = independent_rows_if(&rows, DEPENDENT.sqrt(), still);
+            let kept = independent_rows_while(&rows, DEPENDENT.sqrt(), wanted);
             let depends = |row: &SolverRow| kept.binary_search(&row.index()).is_err();
             self.dependent = (0..system.solver_rows).map(SolverRow).filter(depends).collect();
             elimination.factor_without(system, &self.dependent);
@@ -94,20 +94,20 @@ impl Geometry {
     }
 
     /// The rank near the consistent position q, and at it, as long as that is wanted; the state is left elsewhere.
-    pub fn analyze(&mut self, state: &mut State, q: &[f64], still: &dyn Fn() -> bool) -> Rank {
+    pub fn analyze(&mut self, state: &mut State, q: &[f64], wanted: &dyn Fn() -> bool) -> Rank {
         state.set_positions(&self.system, q);
-        self.place_if(state, still);
+        self.place_while(state, wanted);
         let lost = self.dependent.len();
         // Rows that are independent somewhere are so nearly everywhere.
-        if lost > 0 && still() {
+        if lost > 0 && wanted() {
             let Self { system, elimination, .. } = self;
             let (mut q, mut q_dot) = (q.to_vec(), vec![0.0; q.len()]);
             let length = system.length;
             let mut on = ProjectableState { system, state, elimination, q: &mut q, q_dot: &mut q_dot };
             move_away(&mut on, length);
-            self.place_if(state, still);
+            self.place_while(state, wanted);
         }
-        let (rows, inexact) = (self.system.solver_rows, if still() { self.inexact() } else { None });
+        let (rows, inexact) = (self.system.solver_rows, if wanted() { self.inexact() } else { None });
         Rank {
             rank: rows - self.dependent.len(),
             at_start: rows - lost,

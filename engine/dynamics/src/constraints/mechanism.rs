@@ -14,11 +14,10 @@ use crate::state::{self, State};
 use crate::system::System;
 use crate::system::index::ConstraintId;
 use nalgebra::Vector3;
+use triad_linalg::largest_size;
 
 /// A projection that moves the state by more than this part of the tolerance calls for a new evaluation.
 const NEGLIGIBLE: f64 = 0.1;
-/// |Φ| of each row relative to its size below which a start is assembled.
-const CLOSED: f64 = 1e-9;
 /// |Φ̇| of a row, relative to its size, that the correction of the velocities of a start may leave, as a part of the largest one
 /// before it.
 const MAX_RATE_LEFT: f64 = 1e-6;
@@ -103,33 +102,23 @@ impl Mechanism {
     /// Whether something may turn a body about an axis about which it has no inertia.
     pub fn may_lose_balance(&self) -> bool {
         let System { model, loads, .. } = &self.system;
-        let turns = || {
-            !model.custom_loads.is_empty()
-                || loads.iter().any(|load| load.turns_without_inertia(&self.system))
-        };
-        self.system.regularizes_inertia() && turns()
+        !model.custom_loads.is_empty() || loads.iter().any(|load| load.turns_without_inertia(&self.system))
     }
 
-    /// The bodies that move together at a state with next to no inertia: see [`Elimination::hardly_inert`]. Counters stay.
-    pub fn hardly_inert(&mut self, t: f64, y: &[f64]) -> Vec<usize> {
-        self.evaluate_aside(t, y);
-        self.elimination.hardly_inert()
-    }
-
-    fn evaluate_aside(&mut self, t: f64, y: &[f64]) {
+    /// Accelerations at a state that something beside the run asks for: counters stay.
+    pub fn accelerations_aside(&mut self, t: f64, y: &[f64]) {
         let counters = self.elimination.counters;
         self.accelerations(t, y);
         self.elimination.counters = counters;
     }
 
-    /// Refuses a state at which something turns a body about an axis about which it has no inertia and nothing holds it: what is computed
-    /// there is no acceleration. Counters stay.
+    /// Refuses accelerations, the last that were computed, where something turns a body about an axis about which it has no inertia and
+    /// nothing holds it: what is computed there is none.
     ///
     /// # Errors
     ///
     /// [`ConstraintError::NothingHolds`].
-    pub fn check_balance(&mut self, t: f64, y: &[f64]) -> Result<(), ConstraintError> {
-        self.evaluate_aside(t, y);
+    pub fn check_balance(&self, t: f64) -> Result<(), ConstraintError> {
         let Some((body, left)) = self.elimination.out_of_balance(&self.system) else { return Ok(()) };
         let moment = left.norm();
         Err(ConstraintError::NothingHolds {
@@ -147,7 +136,7 @@ impl Mechanism {
     ///
     /// Those of [`Mechanism::assemble_at`].
     pub fn assemble(&mut self, y: &mut [f64]) -> Result<Vec<String>, ConstraintError> {
-        self.assemble_if(y, &|| true)
+        self.assemble_while(y, &|| true)
     }
 
     /// As [`Mechanism::assemble`], as long as that is wanted; what is said of it afterwards means nothing.
@@ -155,13 +144,13 @@ impl Mechanism {
     /// # Errors
     ///
     /// Those of [`Mechanism::assemble_at`].
-    pub fn assemble_if(
+    pub fn assemble_while(
         &mut self,
         y: &mut [f64],
-        still: &dyn Fn() -> bool,
+        wanted: &dyn Fn() -> bool,
     ) -> Result<Vec<String>, ConstraintError> {
         self.state.set_revolutions(self.system.start_angles());
-        let mut notes = self.assemble_at_if(0.0, y, still)?;
+        let mut notes = self.assemble_at_while(0.0, y, wanted)?;
         notes.extend(given::lost(&self.system, y));
         Ok(notes)
     }
@@ -173,21 +162,21 @@ impl Mechanism {
     /// [`ConstraintError`]: joints that cannot be closed, a start that is too far from a closed one, or a motion that the joints do not
     /// allow; each names the joint or driver.
     pub fn assemble_at(&mut self, t: f64, y: &mut [f64]) -> Result<Vec<String>, ConstraintError> {
-        self.assemble_at_if(t, y, &|| true)
+        self.assemble_at_while(t, y, &|| true)
     }
 
-    fn assemble_at_if(
+    fn assemble_at_while(
         &mut self,
         t: f64,
         y: &mut [f64],
-        still: &dyn Fn() -> bool,
+        wanted: &dyn Fn() -> bool,
     ) -> Result<Vec<String>, ConstraintError> {
         let given = y.to_vec();
         self.set_state(t, y);
         let was_redundant = self.elimination.is_redundant();
         self.elimination.set_redundant(true);
-        let positions = self.assemble_positions(t, &given, y, still)?;
-        let velocities = self.assemble_velocities(t, &given, y, still)?;
+        let positions = self.assemble_positions(t, &given, y, wanted)?;
+        let velocities = self.assemble_velocities(t, &given, y, wanted)?;
         self.elimination.set_redundant(was_redundant);
         Ok(positions.into_iter().chain(velocities).collect())
     }
@@ -198,18 +187,16 @@ impl Mechanism {
         t: f64,
         given: &[f64],
         y: &mut [f64],
-        still: &dyn Fn() -> bool,
+        wanted: &dyn Fn() -> bool,
     ) -> Result<Option<String>, ConstraintError> {
         let (n, length) = (self.system.coordinates, self.system.length);
         let violated = self.state.position_violation(&self.system);
         if violated > CONSISTENT * length + rounding(&given[..n]) {
-            let mut on = AsWanted { on: self.projectable(y), still };
+            let mut on = AsWanted { on: self.projectable(y), wanted };
             project_positions(&mut on, &rules::ASSEMBLY_POSITIONS, length);
         }
-        let left = violation::measure(&self.system, &self.state).relative;
         let moved = self.system.longest_way(&given[..n], &y[..n]);
-        // A comparison that is false for NaN as well.
-        let solved = y.iter().all(|x| x.is_finite()) && left <= CLOSED;
+        let solved = y.iter().all(|x| x.is_finite()) && violation::is_closed(&self.system, &self.state);
         if !solved {
             return Err(self.assembly_error(t, given, y, moved));
         }
@@ -240,18 +227,18 @@ impl Mechanism {
         t: f64,
         given: &[f64],
         y: &mut [f64],
-        still: &dyn Fn() -> bool,
+        wanted: &dyn Fn() -> bool,
     ) -> Result<Option<String>, ConstraintError> {
         let (n, length) = (self.system.coordinates, self.system.length);
         self.state.set_velocities(&self.system, &y[n..]);
         let rate = self.state.velocity_violation(&self.system);
         if rate > CONSISTENT * length + rounding(&given[n..]) {
             let rate = violation::rates(&self.system, &self.state).into_iter().fold(0.0, f64::max);
-            let mut on = AsWanted { on: self.projectable(y), still };
+            let mut on = AsWanted { on: self.projectable(y), wanted };
             project_velocities(&mut on, &rules::ASSEMBLY_VELOCITIES, length);
             self.check_motion(t, MAX_RATE_LEFT * rate + RATE_ROUNDING * state::fastest(&self.system, y))?;
         }
-        Ok(changed::told(&self.system, rate, given, y).map(|moved| {
+        Ok(changed::velocity_note(&self.system, rate, given, y).map(|moved| {
             let lost = changed::velocity_lost(&self.system, given, y);
             lost.map_or(moved.clone(), |lost| format!("{moved}; {lost}"))
         }))
@@ -337,7 +324,7 @@ fn half_turned(system: &System, state: &State, t: f64) -> Option<ConstraintId> {
 
 /// What rounding makes of differences of these numbers: differences of large numbers are no more exact than the numbers.
 fn rounding(x: &[f64]) -> f64 {
-    2.0 * f64::EPSILON * x.iter().fold(0.0f64, |a, x| a.max(x.abs()))
+    2.0 * f64::EPSILON * largest_size(x)
 }
 
 impl OdeSystem for Mechanism {

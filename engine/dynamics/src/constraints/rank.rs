@@ -17,16 +17,16 @@ pub use crate::constraints::geometry::Rank;
 
 /// Finds the rank near the consistent position q; `state` is left elsewhere.
 pub fn analyze(system: &System, state: &mut State, q: &[f64]) -> Rank {
-    analyze_if(system, state, q, &|| true)
+    analyze_while(system, state, q, &|| true)
 }
 
 /// As [`analyze`], as long as that is wanted; what is said of it afterwards means nothing.
-pub fn analyze_if(system: &System, state: &mut State, q: &[f64], still: &dyn Fn() -> bool) -> Rank {
+pub fn analyze_while(system: &System, state: &mut State, q: &[f64], wanted: &dyn Fn() -> bool) -> Rank {
     if is_tree(&system.model) {
         let rank = system.solver_rows;
         return Rank { rank, at_start: rank, dependent: Vec::new(), inexact: None };
     }
-    Geometry::new(system).analyze(state, q, still)
+    Geometry::new(system).analyze(state, q, wanted)
 }
 
 /// Rows of a tree of joints are independent: if rounding finds them dependent in the measure of the masses, with which the

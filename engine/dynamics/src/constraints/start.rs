@@ -4,23 +4,21 @@ use crate::constraints::changed;
 use crate::constraints::given::{driver_of, place, take_over};
 use crate::constraints::mechanism::Mechanism;
 use crate::constraints::rough;
+use crate::constraints::violation;
 use crate::model::motion::Curve;
 use crate::model::{DriverKind, Model, ModelDriver, ModelStart};
 use crate::newton::{project_velocities, rules};
 
-/// |Φ| relative to the mechanism's length up to which a start is closed.
-const CLOSED: f64 = 1e-9;
-
 /// A checked model as a mechanism, and its start y = (q, q̇) as the author gives it by bodies and joints. Where joints give it,
 /// loops are closed as far as that can be done with what is given held; what remains open is left to the assembly.
 pub fn mechanism(model: Model) -> (Mechanism, Vec<f64>) {
-    mechanism_if(model, &|| true)
+    mechanism_while(model, &|| true)
 }
 
 /// As [`mechanism`], as long as that is wanted: otherwise somewhere on the way.
-pub fn mechanism_if(mut model: Model, still: &dyn Fn() -> bool) -> (Mechanism, Vec<f64>) {
+pub fn mechanism_while(mut model: Model, wanted: &dyn Fn() -> bool) -> (Mechanism, Vec<f64>) {
     if !model.starts.is_empty() {
-        close_positions(&mut model, still);
+        close_positions(&mut model, wanted);
         fit_velocities(&mut model);
     }
     Mechanism::from_model(model)
@@ -51,20 +49,18 @@ fn held(model: &Model, of: impl Fn(&ModelStart, [f64; 2]) -> [Option<Curve>; 2])
 }
 
 /// Moves the bodies onto the joints, with the given angles and displacements held.
-fn close_positions(model: &mut Model, still: &dyn Fn() -> bool) {
+fn close_positions(model: &mut Model, wanted: &dyn Fn() -> bool) {
     let constant = |value: Option<f64>| value.map(Curve::constant);
     let held = held(model, |start, _| [constant(start.angle), constant(start.slide)]);
     let (mut mechanism, mut y) = Mechanism::from_model(held);
     // A screw goes on from one turn to the next.
     mechanism.state.set_revolutions(mechanism.system.start_angles());
     mechanism.set_state(0.0, &y);
-    let length = mechanism.system.length.max(1.0);
-    if mechanism.state.position_violation(&mechanism.system) <= f64::EPSILON * length {
+    if violation::relative(&mechanism.system, &mechanism.state) <= f64::EPSILON {
         return;
     }
-    let (_, _, left) = rough::close(&mut mechanism, &mut y, still);
-    // A comparison that is false for NaN as well.
-    if left <= CLOSED * length {
+    rough::close(&mut mechanism, &mut y, wanted);
+    if violation::is_closed(&mechanism.system, &mechanism.state) {
         take_over(model, &mechanism.system, &y, false);
     }
 }
@@ -87,7 +83,7 @@ fn fit_velocities(model: &mut Model) {
     if y.iter().all(|number| number.is_finite()) {
         // What drivers of points do is no rate of a joint that could be given.
         if follows || model.drivers.iter().any(|driver| pulls(&driver.kind)) {
-            model.notes.extend(changed::told(&mechanism.system, rate, &asked, &y));
+            model.notes.extend(changed::velocity_note(&mechanism.system, rate, &asked, &y));
         }
         take_over(model, &mechanism.system, &y, true);
     }

@@ -10,6 +10,7 @@ use crate::system::feature::Difference;
 use crate::system::index::ConstraintId;
 use crate::system::row::Form;
 use crate::system::{Row, System};
+use triad_linalg::larger_or_nan;
 
 /// The rows that are violated most.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +21,8 @@ pub struct ConstraintViolation {
     pub constraints: Vec<(ConstraintId, f64)>,
 }
 
+/// |Φ| of each row relative to its size up to which a start satisfies the constraints.
+const CLOSED: f64 = 1e-9;
 /// Greatest number of joints that an error names.
 pub const MAX_NAMED: usize = 4;
 
@@ -80,18 +83,23 @@ pub fn check(system: &System, at: &State, time: f64) -> Result<(), ConstraintErr
 /// Largest |Φ| of the positions of a state, relative to the size of its row; allocates nothing.
 pub fn relative(system: &System, at: &State) -> f64 {
     let rows = system.rows.iter().map(|row| relative_row_violation(system, at, &row.form));
-    rows.fold(rigid_violation(at), larger)
+    rows.fold(rigid_violation(at), larger_or_nan)
 }
 
 fn relative_row_violation(system: &System, at: &State, form: &Form) -> f64 {
     at.row_violation(form) / row_size(system, form)
 }
 
+/// Whether a position satisfies the constraints as far as a start has to; false where it is no number.
+pub fn is_closed(system: &System, at: &State) -> bool {
+    relative(system, at) <= CLOSED
+}
+
 /// Measures the positions of a state.
 pub fn measure(system: &System, at: &State) -> ConstraintViolation {
     let constraints = worst(&by_constraint(system, |form| relative_row_violation(system, at, form)));
     let relative = constraints.first().map_or(0.0, |&(_, open)| open);
-    ConstraintViolation { relative: larger(rigid_violation(at), relative), constraints }
+    ConstraintViolation { relative: larger_or_nan(rigid_violation(at), relative), constraints }
 }
 
 /// Largest |Φ̇| of each joint and driver at the velocities of a state, relative to the size of its rows, 1/s.
@@ -102,18 +110,18 @@ pub fn rates(system: &System, at: &State) -> Vec<f64> {
 /// The largest of them; allocates nothing.
 pub fn largest_rate(system: &System, at: &State) -> f64 {
     let rows = system.rows.iter();
-    rows.map(|row| at.row_rate_violation(&row.form) / row_size(system, &row.form)).fold(0.0, larger)
+    rows.map(|row| at.row_rate_violation(&row.form) / row_size(system, &row.form)).fold(0.0, larger_or_nan)
 }
 
 /// The largest number of the rows of each constraint.
 fn by_constraint(system: &System, of: impl Fn(&Form) -> f64) -> Vec<f64> {
-    let largest = |forms: &[Row]| forms.iter().map(|row| of(&row.form)).fold(0.0, larger);
+    let largest = |forms: &[Row]| forms.iter().map(|row| of(&row.form)).fold(0.0, larger_or_nan);
     system.constraints.iter().map(|constraint| largest(&system.rows[constraint.forms.clone()])).collect()
 }
 
 /// The constraints with the largest numbers, of one for each, the worst first.
 pub fn worst(numbers: &[f64]) -> Vec<(ConstraintId, f64)> {
-    let worst = numbers.iter().copied().fold(0.0, larger);
+    let worst = numbers.iter().copied().fold(0.0, larger_or_nan);
     let counts = |&(_, open): &(ConstraintId, f64)| open > SHARE * worst || open.is_nan();
     let numbered = numbers.iter().enumerate().map(|(index, &number)| (ConstraintId(index), number));
     let mut constraints: Vec<(ConstraintId, f64)> = numbered.filter(counts).collect();
@@ -123,7 +131,7 @@ pub fn worst(numbers: &[f64]) -> Vec<(ConstraintId, f64)> {
 
 /// Largest violation of a rigid-body row.
 fn rigid_violation(at: &State) -> f64 {
-    at.bodies().iter().fold(0.0, |largest, body| larger(largest, body.q.stretch()))
+    at.bodies().iter().fold(0.0, |largest, body| larger_or_nan(largest, body.q.stretch()))
 }
 
 /// What a row's Φ is measured in: m for each point in it.
@@ -154,7 +162,7 @@ pub fn row_sizes(system: &System) -> Vec<f64> {
 pub struct Signs {
     /// Time at which it first passed a singular configuration, s.
     pub passed: Option<f64>,
-    /// Error of the energy balance, relative to the largest kinetic energy.
+    /// Error of the energy balance, relative to the energy in play: see the run's summary.
     pub drift: f64,
     /// Largest |Φ| relative to the size of its row.
     pub open: f64,
@@ -186,12 +194,12 @@ pub fn doubts(settings: &Settings, signs: &Signs) -> Vec<String> {
     }
     let allowed = (ALLOWED * settings.tolerance).clamp(ALLOWED_WITHIN.0, ALLOWED_WITHIN.1);
     for (size, what) in [
-        (signs.drift, "of the largest kinetic energy came from nowhere or went there"),
+        (signs.drift, "of the energy in play came from nowhere or went there"),
         (signs.open, "of the mechanism's size is how far the joints are open"),
         (signs.swallowed, "of the lightest mass is lost in the rounding of the penalties"),
     ] {
         // True for NaN as well.
-        if larger(size, allowed) != allowed {
+        if larger_or_nan(size, allowed) != allowed {
             doubts.push(format!(
                 "{size:.1e} {what}, more than a tolerance of {:.0e} promises; {instead}",
                 settings.tolerance
@@ -199,9 +207,4 @@ pub fn doubts(settings: &Settings, signs: &Signs) -> Vec<String> {
         }
     }
     doubts
-}
-
-/// The larger of two numbers; NaN is larger than any.
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b || a.is_nan() { a } else { b }
 }

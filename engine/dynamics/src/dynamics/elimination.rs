@@ -33,13 +33,13 @@ use crate::system::natural::NaturalCoordinates;
 use friction::Frictions;
 use in_plane::InPlane;
 use nalgebra::{Matrix3, Vector3};
-use right_side::gram;
-use triad_linalg::{BlockCholesky, larger};
+use right_side::{gram, stretch, stretching};
+use triad_linalg::{BlockCholesky, largest_size};
 
 /// Regularization of S where rows are redundant, relative to its diagonal.
 ///
 /// Large enough that rounding in a nearly singular S stays harmless through singular positions (with 1e-11 the step
-/// control stalls there at tolerances of 1e-12), small enough that two refinements remove its effect elsewhere.
+/// control stalls there at tolerances of 1e-12), small enough that a few refinements remove its effect elsewhere.
 pub const REGULARIZATION: f64 = 1e-9;
 /// Steps of iterative refinement where S is regularized.
 const REFINEMENTS: usize = 3;
@@ -247,9 +247,7 @@ impl Elimination {
     /// of the step.
     pub fn correct_positions(&mut self, system: &System, state: &State, q: &mut [f64]) -> f64 {
         self.clear_forces();
-        self.set_particular(system, state, false, |q, _| {
-            gram(|k, l| if k == l { 1.0 } else { 0.0 } - q.e[k].dot(&q.e[l]))
-        });
+        self.set_particular(system, state, false, |q, _| stretch(q));
         self.set_gamma(system, state, false, |value, _| -value);
         self.apply_correction(system, state, q)
     }
@@ -258,9 +256,7 @@ impl Elimination {
     pub fn correct_velocities(&mut self, system: &System, state: &State, q_dot: &mut [f64]) -> f64 {
         state.require_velocities();
         self.clear_forces();
-        self.set_particular(system, state, false, |q, q_dot| {
-            gram(|k, l| -(q.e[k].dot(&q_dot.e[l]) + q.e[l].dot(&q_dot.e[k])))
-        });
+        self.set_particular(system, state, false, stretching);
         self.set_gamma(system, state, false, |_, rate| -rate);
         self.apply_correction(system, state, q_dot)
     }
@@ -292,7 +288,7 @@ impl Elimination {
             (false, true) => REFINEMENTS,
             (false, false) => 0,
         };
-        self.proximal = Proximal::begin(size(&self.residual), self.fewest_steps);
+        self.proximal = Proximal::begin(largest_size(&self.residual), self.fewest_steps);
         for _ in 0..steps {
             self.remove_regularization(system);
             self.row_residual(system);
@@ -301,7 +297,7 @@ impl Elimination {
                 *lambda += correction;
             }
             self.apply_multipliers(system);
-            if self.regularizes_inertia && self.proximal.ends(size(&self.residual)) {
+            if self.regularizes_inertia && self.proximal.ends(largest_size(&self.residual)) {
                 break;
             }
         }
@@ -407,20 +403,15 @@ impl Elimination {
 fn fewest_steps(system: &System) -> usize {
     let joined = |body: usize| system.incidences.iter().any(|incidence| incidence.body == body);
     let steps = |(index, body): (usize, &RigidBody)| {
-        let lent = body.regularizing_inertia;
-        let own = body.principal.iter().copied().filter(|own| *own > lent).fold(f64::INFINITY, f64::min);
-        if lent == 0.0 || own.is_infinite() || joined(index) {
+        let delta = body.regularizing_inertia;
+        let own = body.principal.iter().copied().filter(|own| *own > delta).fold(f64::INFINITY, f64::min);
+        if delta == 0.0 || own.is_infinite() || joined(index) {
             0
         } else {
-            Proximal::steps_for(lent / (lent + own))
+            Proximal::steps_for(delta / (delta + own))
         }
     };
     system.bodies.iter().enumerate().map(steps).max().unwrap_or(0)
-}
-
-/// The largest of these numbers.
-fn size(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |most, x| larger(most, x.abs()))
 }
 
 /// Q̈ = Q̈ᵖ + (v̇, ω̇ × e_k) of a body at position q.

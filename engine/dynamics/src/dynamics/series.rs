@@ -24,7 +24,7 @@ mod acting;
 
 mod answer;
 
-mod lent;
+mod regularization;
 
 mod expand;
 
@@ -53,9 +53,9 @@ use bodies::{Bodies, Bundle, FeatureSlot, LanePlace, Planar, Single};
 use constraints::{Angles, JointPoints, NOWHERE, Prescribed, Rows, Schur};
 use lanes::LaneVector;
 use layout::bundles;
-use lent::Lent;
 use loads::Loads;
 use pulp::Simd;
+use regularization::InertiaRegularization;
 use work::WorkBetween;
 
 /// The smallest tolerance that redundant rows admit: below it, their rounding would be taken for motion.
@@ -121,8 +121,8 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     expansion: Expansion,
     /// Whether the factor is that of the state, up to the last correction.
     factor_is_here: bool,
-    /// Where bodies are lent inertia, what takes that out again.
-    lent: Option<Box<Lent<L, B>>>,
+    /// What takes δ out again, where bodies need it.
+    regularization: Option<Box<InertiaRegularization<L, B>>>,
     /// Work done so far.
     pub counters: Counters,
     /// A copy that evaluates S at other times, and leaves the factor as it is.
@@ -183,9 +183,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let angles = Angles::new(system, &place, &schur.factor, stride, turns);
         let prescribed = Prescribed::new(system, &place, &schur.factor, L, stride);
         let loads = Loads::new(system, &place, L, stride);
-        let lent = system
-            .regularizes_inertia()
-            .then(|| Box::new(Lent::new(&bundles, stride, schur.factor.numbers() + NOWHERE)));
+        let regularization = system.regularizes_inertia().then(|| {
+            Box::new(InertiaRegularization::new(&bundles, stride, schur.factor.numbers() + NOWHERE))
+        });
         let needs_values = rows.curved() || !angles.is_empty() || !loads.is_empty() || !prescribed.is_empty();
         Self {
             time: 0.0,
@@ -198,11 +198,11 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             loads,
             needs_values,
             stride,
-            state: vec![[B::at_rest(), B::zero()]; bundles.len()],
+            state: vec![[B::at_rest(), B::ZERO]; bundles.len()],
             sizes: vec![0.0; stride],
-            q: vec![B::zero(); bundles.len() * stride],
-            p: vec![B::no_directors(); bundles.len() * stride],
-            mobility: vec![B::no_mobility(); moving],
+            q: vec![B::ZERO; bundles.len() * stride],
+            p: vec![B::NO_DIRECTORS; bundles.len() * stride],
+            mobility: vec![B::NO_MOBILITY; moving],
             bundles,
             slots,
             values: vec![[[0.0; L]; 3]; all],
@@ -221,7 +221,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             expansion: Expansion::default(),
             factor_is_here: false,
             pivots: Pivots::new(system),
-            lent,
+            regularization,
             counters: Counters::default(),
             probe: None,
             instants: None,

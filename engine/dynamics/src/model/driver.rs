@@ -1,10 +1,10 @@
 //! Drivers with their motions ready to be evaluated.
 
-use super::error::COSINE;
+use super::error::GeometryFault;
 use super::reader::ModelReader;
 use super::{BodyRef, ModelError};
 use crate::model::motion::{Curve, VectorCurve};
-use crate::scene::{Driver, Motion};
+use crate::scene::{Driver, Motion, VectorMotion};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
@@ -13,6 +13,8 @@ const LEAST_SINE: f64 = 1e-3;
 /// Parts of a step in which such an angle is looked at for where it turns back, which so many bisections find.
 const LOOKED_AT: u32 = 8;
 const BISECTIONS: u32 = 40;
+/// Parts of the run at whose ends the length of a direction is looked at.
+const LENGTHS: u32 = 16;
 
 /// A checked driver.
 #[derive(Clone, Debug)]
@@ -80,6 +82,21 @@ pub enum DriverKind {
     },
 }
 
+impl DriverKind {
+    /// Holds what it prescribes as it is at time t.
+    pub fn hold(&mut self, t: f64) {
+        match self {
+            Self::Point { motion, .. } | Self::Vector { motion, .. } => *motion = motion.held(t),
+            Self::Angle { motion, .. } | Self::Slide { motion, .. } | Self::Cosine { motion, .. } => {
+                *motion = motion.held(t);
+            }
+            Self::CosineToWorld { reference, motion, .. } => {
+                (*reference, *motion) = (reference.held(t), motion.held(t));
+            }
+        }
+    }
+}
+
 impl ModelDriver {
     /// Checks a driver.
     pub(super) fn new(driver: &Driver, reader: &ModelReader) -> Result<Self, ModelError> {
@@ -99,13 +116,7 @@ impl ModelDriver {
             Driver::Vector { body, vector: local, motion, .. } => {
                 let body = reader.moving_body("body", body)?;
                 let local = vector(body, "vector", *local)?;
-                let motion = reader.vector_curve("motion", motion)?;
-                let length = motion.at(0.0)[0].norm();
-                if (length - 1.0).abs() > 1e-6 {
-                    let reason = format!("the direction that it follows has the length {length}, not 1");
-                    return Err(reader.wrong("motion", reason));
-                }
-                DriverKind::Vector { body, local, motion }
+                DriverKind::Vector { body, local, motion: direction(reader, "motion", motion)? }
             }
             Driver::Angle { joint, motion, .. } => DriverKind::Angle {
                 joint: reader.joint_with_angle(joint)?,
@@ -134,7 +145,7 @@ impl ModelDriver {
                 DriverKind::CosineToWorld {
                     body,
                     local: vector(body, "vector", *local)?,
-                    reference: reader.vector_curve("reference", reference)?,
+                    reference: direction(reader, "reference", reference)?,
                     motion: angle_between(reader, motion)?,
                 }
             }
@@ -176,16 +187,41 @@ fn turning_point(motion: &Curve, [mut before, mut after]: [f64; 2]) -> Option<f6
     Some(after)
 }
 
+/// A direction in the world: a vector that keeps its length is made a unit vector, and components have to be those of one.
+fn direction(reader: &ModelReader, key: &str, motion: &VectorMotion) -> Result<VectorCurve, ModelError> {
+    let unit = match motion {
+        VectorMotion::Fixed { vector } => {
+            VectorMotion::Fixed { vector: reader.unit(&format!("{key}/vector"), *vector)?.into() }
+        }
+        VectorMotion::Turning { start, axis, angle } => {
+            let start = reader.unit(&format!("{key}/start"), *start)?.into();
+            VectorMotion::Turning { start, axis: *axis, angle: angle.clone() }
+        }
+        VectorMotion::Components { .. } => motion.clone(),
+    };
+    let curve = reader.vector_curve(key, &unit)?;
+    for part in 0..=LENGTHS {
+        let t = reader.duration * f64::from(part) / f64::from(LENGTHS);
+        let length = curve.at(t)[0].norm();
+        if (length - 1.0).abs() > 1e-6 {
+            let reason =
+                format!("the direction that it follows has the length {length} at t = {t:.6} s, not 1");
+            return Err(reader.faulty(key, GeometryFault::Unit, reason));
+        }
+    }
+    Ok(curve)
+}
+
 /// An angle between vectors that does not begin where its cosine tells nothing of it.
 fn angle_between(reader: &ModelReader, motion: &Motion) -> Result<Curve, ModelError> {
     let curve = reader.curve("motion", motion)?;
     let angle = curve.at(0.0)[0];
     if is_along(angle) {
         let reason = format!(
-            "{COSINE} that begins with {angle} rad: at 0 and pi the cosine does not change with the angle, \
+            "it prescribes the cosine of an angle that begins with {angle} rad: at 0 and pi the cosine does not change with the angle, \
              and holds nothing"
         );
-        return Err(reader.wrong("motion", reason));
+        return Err(reader.faulty("motion", GeometryFault::Cosine, reason));
     }
     Ok(curve)
 }

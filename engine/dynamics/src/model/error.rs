@@ -1,18 +1,77 @@
 //! What can be wrong with a scene that reads well.
 
+use std::fmt;
+
 /// Where a scene chooses outputs.
 const OUTPUTS: &str = "/simulation/outputs";
-/// What is wrong with a formula that can be read, as its reason begins.
-const NO_SERIES: &str = "its formula has no power series";
-/// What is wrong with an angle whose cosine tells nothing of it, as its reason begins.
-pub(super) const COSINE: &str = "it prescribes the cosine of an angle";
-/// What to try with such an angle.
+/// What to try with an angle whose cosine tells nothing of it.
 pub const OTHER_THAN_COSINE: &str = "Prescribe the angle of a joint (angle) or a direction (vector), which hold everywhere, or choose \
                                      vectors that are at right angles in the middle of the motion.";
-/// What is wrong with a direction.
-pub(super) const NO_LENGTH: &str = "the vector has no length";
-/// What is wrong with a rod.
-pub(super) const COINCIDENT: &str = "its points coincide, and no length is given";
+
+/// What an element names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NamedElement {
+    /// A body, or the ground.
+    Body,
+    /// A joint.
+    Joint,
+    /// A joint that has to stand before the element.
+    JointBefore,
+    /// A joint or driver.
+    JointOrDriver,
+    /// A driver.
+    Driver,
+    /// A load.
+    Load,
+    /// A marker.
+    Marker,
+}
+
+impl NamedElement {
+    /// Where it has to stand, if that matters: of joints only a gear names others.
+    fn order(self) -> &'static str {
+        match self {
+            Self::JointBefore => " before it; a gear is written after its two joints",
+            _ => "",
+        }
+    }
+}
+
+impl fmt::Display for NamedElement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Body => "body",
+            Self::Joint | Self::JointBefore => "joint",
+            Self::JointOrDriver => "joint or driver",
+            Self::Driver => "driver",
+            Self::Load => "load",
+            Self::Marker => "marker",
+        })
+    }
+}
+
+/// What is wrong with an element, as far as there is something to try that helps with that alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GeometryFault {
+    /// Something that its kind does not know.
+    TooMuch,
+    /// Points or axes of a joint that are missing, or given twice.
+    Place,
+    /// The points of a rod coincide.
+    Coincident,
+    /// The pitch of a screw.
+    Pitch,
+    /// A direction without length.
+    NoLength,
+    /// A direction whose components are not those of a unit vector.
+    Unit,
+    /// A formula without a power series in the run.
+    NoSeries,
+    /// An angle whose cosine tells nothing of it.
+    Cosine,
+    /// Anything else.
+    Other,
+}
 
 /// A scene that cannot be: what, where, and what to try.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -21,19 +80,19 @@ pub enum ModelError {
     #[error("the scene has no bodies")]
     NoBodies,
     /// Two elements of one list share a name.
-    #[error("{list}[{index}]: the name \"{name}\" is already used by {list}[{first}]")]
+    #[error("{list}[{index}]: the name \"{name}\" is already used by {first}")]
     DuplicateName {
         /// Which list.
         list: &'static str,
         /// The second element of that name.
         index: usize,
-        /// The first element of that name.
-        first: usize,
+        /// The first element of that name, as list\[index\].
+        first: String,
         /// The name.
         name: String,
     },
-    /// An empty name, or that of the ground.
-    #[error("{list}[{index}]: \"{name}\" cannot be the name of an element")]
+    /// An empty name, that of the ground, or one with line breaks.
+    #[error("{list}[{index}]: {name:?} cannot be the name of an element")]
     ReservedName {
         /// Which list.
         list: &'static str,
@@ -42,16 +101,18 @@ pub enum ModelError {
         /// Its name.
         name: String,
     },
-    /// A joint, driver or load names a body that is not there.
-    #[error("{element}: there is no body \"{name}\"")]
-    UnknownBody {
-        /// The joint, driver or load.
+    /// An element names one that is not there.
+    #[error("{element}: there is no {what} \"{name}\"{order}", order = what.order())]
+    UnknownName {
+        /// The element that names another.
         element: String,
         /// JSON pointer of the name.
         pointer: String,
+        /// What it names.
+        what: NamedElement,
         /// The name.
         name: String,
-        /// The name of a body that is nearly the same, or nothing.
+        /// The name of one that is nearly the same, or nothing.
         nearest: Option<String>,
     },
     /// A joint between a body and itself.
@@ -137,15 +198,17 @@ pub enum ModelError {
         /// What is wrong.
         reason: String,
     },
-    /// A joint, driver or load without something that it needs, or with something that it does not know.
+    /// An element without something that it needs, or with something that it does not know.
     #[error("{element}: {reason}")]
     Geometry {
-        /// The joint, driver or load.
+        /// The joint, driver, load, marker, event or output.
         element: String,
         /// Where.
         pointer: String,
         /// What is missing or too much.
         reason: String,
+        /// What that is a case of.
+        fault: GeometryFault,
     },
     /// A parameter that cannot be.
     #[error("parameter \"{name}\": {reason}")]
@@ -166,7 +229,12 @@ impl ModelError {
             Self::NoBodies => "no-bodies",
             Self::DuplicateName { .. } => "duplicate-name",
             Self::ReservedName { .. } => "reserved-name",
-            Self::UnknownBody { .. } => "unknown-body",
+            Self::UnknownName { pointer, .. } if pointer.starts_with(OUTPUTS) => "output-invalid",
+            Self::UnknownName { what: NamedElement::Body, .. } => "unknown-body",
+            Self::UnknownName { what: NamedElement::Joint | NamedElement::JointBefore, .. } => {
+                "unknown-joint"
+            }
+            Self::UnknownName { .. } => "unknown-marker",
             Self::SameBody { .. } => "joint-to-itself",
             Self::NotFinite { .. } => "not-finite",
             Self::OutOfRange { .. } => "out-of-range",
@@ -177,6 +245,8 @@ impl ModelError {
             Self::Parameter { .. } => "parameter-invalid",
             Self::Geometry { pointer, .. } if pointer.starts_with("/joints") => "joint-geometry",
             Self::Geometry { pointer, .. } if pointer.starts_with("/drivers") => "driver-invalid",
+            Self::Geometry { pointer, .. } if pointer.starts_with("/events") => "event-invalid",
+            Self::Geometry { pointer, .. } if pointer.starts_with("/markers") => "marker-invalid",
             Self::Geometry { pointer, .. } if pointer.starts_with(OUTPUTS) => "output-invalid",
             Self::Geometry { .. } => "load-invalid",
         }
@@ -189,7 +259,7 @@ impl ModelError {
             Self::DuplicateName { list, index, .. } | Self::ReservedName { list, index, .. } => {
                 format!("/{list}/{index}/name")
             }
-            Self::UnknownBody { pointer, .. }
+            Self::UnknownName { pointer, .. }
             | Self::SameBody { pointer, .. }
             | Self::NotFinite { pointer, .. }
             | Self::OutOfRange { pointer, .. }
@@ -206,14 +276,17 @@ impl ModelError {
     pub fn hint(&self) -> String {
         match self {
             Self::NoBodies => "Add at least one body with a name and a mass.".to_owned(),
-            Self::DuplicateName { .. } => "Give each element of a list its own name.".to_owned(),
-            Self::ReservedName { .. } => {
-                "Choose a name that is not empty and not \"ground\", which is the fixed body.".to_owned()
+            Self::DuplicateName { .. } => {
+                "Give each element of a list its own name; joints and drivers share one list of names.".to_owned()
             }
-            Self::UnknownBody { nearest: Some(name), .. } => format!("Did you mean \"{name}\"?"),
-            Self::UnknownBody { nearest: None, .. } => {
+            Self::ReservedName { .. } => {
+                "Choose a name that is not empty, has no line breaks, and is not \"ground\", which is the fixed body.".to_owned()
+            }
+            Self::UnknownName { nearest: Some(name), .. } => format!("Did you mean \"{name}\"?"),
+            Self::UnknownName { what: NamedElement::Body, pointer, .. } if !pointer.starts_with(OUTPUTS) => {
                 "Use the name of one of the bodies, or \"ground\".".to_owned()
             }
+            Self::UnknownName { what, .. } => format!("Use the name of a {what} of the scene."),
             Self::SameBody { .. } => "Name two different bodies, one of which may be \"ground\".".to_owned(),
             Self::NotFinite { .. } => "Write an ordinary number.".to_owned(),
             Self::OutOfRange { low, high, .. } => {
@@ -245,51 +318,43 @@ impl ModelError {
                 "Write a word alone, like reactions, or with the name of one element behind a colon, like reactions:pin."
                     .to_owned()
             }
-            Self::Geometry { reason, .. } if reason.starts_with(NO_SERIES) => {
-                "Change the formula so that it has a value and all derivatives in the whole run, let the run end before, or write \
-                 a table instead."
-                    .to_owned()
-            }
-            Self::Geometry { reason, .. } if reason.starts_with(COSINE) => OTHER_THAN_COSINE.to_owned(),
-            Self::Geometry { reason, .. } if reason == NO_LENGTH => {
-                "Give a vector that is not zero, such as [0, 0, 1]: its length does not matter.".to_owned()
-            }
-            Self::Geometry { pointer, reason, .. } if pointer.starts_with("/joints") => {
-                hint_of_joint(pointer, reason).to_owned()
-            }
-            Self::Geometry { .. } => {
-                "Compare the element with the JSON Schema of a scene; points and vectors of a body are in its own \
-                 frame."
-                    .to_owned()
-            }
+            Self::Geometry { pointer, fault, .. } => fault.hint(pointer.starts_with("/joints")).to_owned(),
         }
     }
 }
 
-/// What to try with the geometry of a joint.
-fn hint_of_joint(pointer: &str, reason: &str) -> &'static str {
-    if is_too_much(reason) {
-        "Leave it out, or choose a kind of joint that has it."
-    } else if pointer.ends_with("/pitch") {
-        "Give what body j advances in a whole turn, in m; a negative number for a left-handed thread."
-    } else if reason == COINCIDENT {
-        "Set the two points of the rod apart, or put a spherical joint in its place."
-    } else if of_place(pointer) {
-        "Give points and axes either in the world at the start (point, axis, axes) or in the frames of both bodies (point_i and point_j, \
-         axis_i and axis_j)."
-    } else {
-        "Compare the joint with the JSON Schema of a scene (`triad schema`)."
+impl GeometryFault {
+    /// What to try, with a joint or another element.
+    fn hint(self, joint: bool) -> &'static str {
+        match self {
+            Self::TooMuch if joint => "Leave it out, or choose a kind of joint that has it.",
+            Self::TooMuch => "Leave it out.",
+            Self::Place => {
+                "Give points and axes either in the world at the start (point, axis, axes) or in the frames of both bodies (point_i and point_j, \
+                 axis_i and axis_j)."
+            }
+            Self::Coincident => "Set the two points of the rod apart, or put a spherical joint in its place.",
+            Self::Pitch => {
+                "Give what body j advances in a whole turn, in m; a negative number for a left-handed thread."
+            }
+            Self::NoLength => {
+                "Give a vector that is not zero, such as [0, 0, 1]: its length does not matter."
+            }
+            Self::Unit => {
+                "Divide its components by its length, or give a vector that turns about an axis, which keeps its length."
+            }
+            Self::NoSeries => {
+                "Change the formula so that it has a value and all derivatives in the whole run, let the run end before, or write \
+                 a table instead."
+            }
+            Self::Cosine => OTHER_THAN_COSINE,
+            Self::Other if joint => "Compare the joint with the JSON Schema of a scene (`triad schema`).",
+            Self::Other => {
+                "Compare the element with the JSON Schema of a scene; points and vectors of a body are in its own \
+                 frame."
+            }
+        }
     }
-}
-
-/// Whether a joint is refused for what its kind does not know.
-fn is_too_much(reason: &str) -> bool {
-    reason.starts_with("only ") || (reason.starts_with("a ") && reason.contains(" has no "))
-}
-
-/// Whether it is about the points or axes of a joint.
-fn of_place(pointer: &str) -> bool {
-    pointer.split('/').nth(3).is_some_and(|key| key.starts_with("point") || key.starts_with("ax"))
 }
 
 /// A number, by its power of ten where it would fill the line.

@@ -1,10 +1,10 @@
 //! Events to be located, with their points in principal frames.
 
+use super::error::NamedElement;
 use super::reader::ModelReader;
 use super::{BodyRef, ModelError, ModelMarker};
 use crate::scene::{Event, Passing, Quantity};
 use nalgebra::Vector3;
-use triad_scene::text::nearest_name;
 
 /// Greatest |value| that an event may wait for, m or rad.
 const MAX_VALUE: f64 = 1e9;
@@ -108,8 +108,11 @@ fn named<'a>(
     reader: &ModelReader,
 ) -> Result<&'a ModelMarker, ModelError> {
     markers.iter().find(|marker| marker.name == name).ok_or_else(|| {
-        let nearest = nearest_name(name, markers.iter().map(|marker| marker.name.as_str()));
-        let guess = nearest.map_or_else(String::new, |n| format!("; did you mean \"{n}\"?"));
-        reader.wrong("of/marker", format!("there is no marker \"{name}\"{guess}"))
+        reader.unknown(
+            "of/marker",
+            NamedElement::Marker,
+            name,
+            markers.iter().map(|marker| marker.name.as_str()),
+        )
     })
 }

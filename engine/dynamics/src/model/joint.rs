@@ -1,6 +1,6 @@
 //! A joint with its geometry in the principal frames of its two bodies.
 
-use super::error::COINCIDENT;
+use super::error::GeometryFault;
 use super::gear::wheels;
 use super::joint_keys::{AxisKeys, KnownKeys, OwnKeys, PointKeys, refuse_strangers};
 use super::reader::ModelReader;
@@ -232,11 +232,12 @@ impl ModelJoint {
 }
 
 fn pitch(joint: &Joint, reader: &ModelReader) -> Result<f64, ModelError> {
-    let pitch = joint.pitch.ok_or_else(|| reader.wrong("pitch", "a screw needs a pitch"))?;
+    let pitch =
+        joint.pitch.ok_or_else(|| reader.faulty("pitch", GeometryFault::Pitch, "a screw needs a pitch"))?;
     if pitch.is_finite() && pitch != 0.0 {
         Ok(pitch / std::f64::consts::TAU)
     } else {
-        Err(reader.wrong("pitch", "the pitch of a screw is a number other than zero"))
+        Err(reader.faulty("pitch", GeometryFault::Pitch, "the pitch of a screw is a number other than zero"))
     }
 }
 
@@ -254,7 +255,7 @@ fn rod_length(
     let length = (ends[1] - ends[0]).norm();
     let key = if joint.points.is_some() { "points" } else { "point_i" };
     if length < MIN_ROD {
-        Err(reader.wrong(key, COINCIDENT))
+        Err(reader.faulty(key, GeometryFault::Coincident, "its points coincide, and no length is given"))
     } else {
         reader.number(key, length, MIN_ROD, MAX_ROD)
     }
@@ -334,7 +335,7 @@ fn points(
 ) -> Result<[Vector3<f64>; 2], ModelError> {
     match (joint.point, joint.points, joint.point_i, joint.point_j) {
         (Some(world), None, None, None) => match keys.point {
-            PointKeys::Two(reason) => Err(reader.wrong("point", reason)),
+            PointKeys::Two(reason) => Err(reader.faulty("point", GeometryFault::Place, reason)),
             PointKeys::None(_) | PointKeys::Common => {
                 let world = reader.vector("point", world)?;
                 Ok(pair.map(|body| reader.point_from_world(body, &world)))
@@ -348,8 +349,12 @@ fn points(
             let local = [reader.vector("point_i", i)?, reader.vector("point_j", j)?];
             Ok([0, 1].map(|side| reader.local_point(pair[side], &local[side])))
         }
-        (None, None, None, None) => Err(reader.wrong("point", "it has no point")),
-        _ => Err(reader.wrong("point", "its point is given twice, or on one of its bodies only")),
+        (None, None, None, None) => Err(reader.faulty("point", GeometryFault::Place, "it has no point")),
+        _ => Err(reader.faulty(
+            "point",
+            GeometryFault::Place,
+            "its point is given twice, or on one of its bodies only",
+        )),
     }
 }
 
@@ -368,11 +373,11 @@ fn axes(
                 Ok(pair.map(|body| reader.vector_from_world(body, &world)))
             }
             AxisKeys::Common | AxisKeys::OfFirst | AxisKeys::Two(_) => {
-                Err(reader.wrong("axis", "it has no axis"))
+                Err(reader.faulty("axis", GeometryFault::Place, "it has no axis"))
             }
         },
         (Some(world), None, None, None) => match keys.axis {
-            AxisKeys::Two(reason) => Err(reader.wrong("axis", reason)),
+            AxisKeys::Two(reason) => Err(reader.faulty("axis", GeometryFault::Place, reason)),
             AxisKeys::None(_) | AxisKeys::Optional | AxisKeys::Common | AxisKeys::OfFirst => {
                 let world = reader.unit("axis", world)?;
                 Ok(pair.map(|body| reader.vector_from_world(body, &world)))
@@ -391,7 +396,11 @@ fn axes(
             let local = reader.local_vector(pair[0], &reader.unit("axis_i", i)?);
             Ok([local, reader.vector_from_world(pair[1], &reader.vector_to_world(pair[0], &local))])
         }
-        _ => Err(reader.wrong("axis", "its axis is given twice, or on one of its bodies only")),
+        _ => Err(reader.faulty(
+            "axis",
+            GeometryFault::Place,
+            "its axis is given twice, or on one of its bodies only",
+        )),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Which keys of a scene each kind of joint knows: others are errors, not noise.
 
 use super::ModelError;
+use super::error::GeometryFault;
 use super::reader::ModelReader;
 use crate::scene::{Joint, JointKind};
 
@@ -119,7 +120,7 @@ pub(super) fn refuse_strangers(
     let broken =
         rules.into_iter().find_map(|(key, given, refused)| refused.filter(|_| given).map(|why| (key, why)));
     match broken {
-        Some((key, reason)) => Err(reader.wrong(key, reason)),
+        Some((key, reason)) => Err(reader.faulty(key, GeometryFault::TooMuch, reason)),
         None => Ok(()),
     }
 }

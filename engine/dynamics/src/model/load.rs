@@ -1,5 +1,6 @@
 //! Loads with their motions ready to be evaluated.
 
+use super::error::GeometryFault;
 use super::reader::ModelReader;
 use super::{BodyRef, ModelError};
 use crate::model::motion::{Curve, VectorCurve};
@@ -171,7 +172,8 @@ fn check_dry(reader: &ModelReader, friction: Option<&Friction>, turning: bool) -
         if let Some(length) = length {
             reader.number(key, length, MIN_LENGTH, 1e9)?;
             if friction.coefficient == 0.0 {
-                return Err(reader.wrong(key, "its friction has a length, but no coefficient"));
+                let reason = "its friction has a length, but no coefficient";
+                return Err(reader.faulty(key, GeometryFault::TooMuch, reason));
             }
         }
     }
@@ -181,7 +183,8 @@ fn check_dry(reader: &ModelReader, friction: Option<&Friction>, turning: bool) -
             "friction with a coefficient about an axis needs the radius of its pin: give friction.radius, in m",
         )),
         Some(_) if !turning => {
-            Err(reader.wrong("friction/radius", "friction along an axis has no radius: leave it out"))
+            let reason = "friction along an axis has no radius: leave it out";
+            Err(reader.faulty("friction/radius", GeometryFault::TooMuch, reason))
         }
         _ => Ok(()),
     }

@@ -1,6 +1,7 @@
 //! Starts that gears pass on: where one of two coupled joints stands says where the other one does, however many turns that is, and
 //! how fast one turns says how fast the other one does.
 
+use super::error::GeometryFault;
 use super::{JointGeometry, ModelError, ModelJoint, ModelStart};
 use std::f64::consts::PI;
 
@@ -33,7 +34,7 @@ pub(super) fn pass_on(joints: &[ModelJoint], starts: &mut Vec<ModelStart>) -> Re
     let mut reached: Vec<usize> = (0..joints.len()).filter(|&joint| angles[joint].is_some()).collect();
     let mut apart = meshes.iter().filter(|mesh| {
         let [first, second] = mesh.joints.map(|joint| joints[joint].stated);
-        (mesh.told(first) - second).abs() > FITS * second.abs().max(1.0)
+        (mesh.angle_of_second(first) - second).abs() > FITS * second.abs().max(1.0)
     });
     loop {
         while let Some(joint) = reached.pop() {
@@ -120,7 +121,7 @@ fn rates(of_joint: &[Vec<Mesh>], starts: &[ModelStart]) -> Vec<Option<f64>> {
 
 impl Mesh {
     /// The angle of the second joint for one of the first.
-    fn told(&self, first: f64) -> f64 {
+    fn angle_of_second(&self, first: f64) -> f64 {
         self.ratio * first + self.offset
     }
 
@@ -129,7 +130,7 @@ impl Mesh {
         let [first, second] = self.joints;
         match (angles[first], angles[second]) {
             (Some(leads), Some(follows)) => {
-                let told = self.told(leads);
+                let told = self.angle_of_second(leads);
                 if (follows - told).abs() <= PI {
                     return Ok(None);
                 }
@@ -142,10 +143,11 @@ impl Mesh {
                          start of one of them out, or give the gear an \"offset\"",
                         names[0], names[1]
                     ),
+                    fault: GeometryFault::Other,
                 })
             }
             (Some(leads), None) => {
-                angles[second] = Some(self.told(leads));
+                angles[second] = Some(self.angle_of_second(leads));
                 Ok(Some(second))
             }
             (None, Some(follows)) if self.ratio != 0.0 => {

@@ -66,6 +66,12 @@ impl Curve {
         Self::Polynomial(vec![value])
     }
 
+    /// A curve that stays as this one is at time t.
+    #[must_use]
+    pub fn held(&self, t: f64) -> Self {
+        Self::constant(self.at(t)[0])
+    }
+
     /// The same curve times a constant.
     #[must_use]
     pub fn scaled(mut self, factor: f64) -> Self {
@@ -178,6 +184,13 @@ impl VectorCurve {
                 Self::turning(&Vector3::from(*start), &axis, curve("angle", angle)?)
             }
         })
+    }
+
+    /// A vector that stays as this one is at time t.
+    #[must_use]
+    pub fn held(&self, t: f64) -> Self {
+        let [x, y, z] = self.at(t)[0].into();
+        Self::Components([x, y, z].map(Curve::constant))
     }
 
     /// The same vector with its components in another frame, v' = rotation · v.

@@ -1,5 +1,6 @@
 //! Chosen outputs name what the scene has.
 
+use super::error::{GeometryFault, NamedElement};
 use super::{ModelError, ModelJoint};
 use crate::scene::{JointKind, Output, OutputKind, Scene};
 use triad_scene::text::nearest_name;
@@ -25,41 +26,40 @@ impl ModelJoint {
 pub(super) fn check(scene: &Scene) -> Result<(), ModelError> {
     for (index, output) in scene.simulation.outputs.iter().enumerate() {
         let Some(of) = &output.of else { continue };
-        let known = named(scene, output.kind);
+        let element = format!("output \"{output}\"");
+        let pointer = format!("/simulation/outputs/{index}");
+        let Some((what, known)) = named(scene, output.kind) else {
+            let reason = format!("there is nothing that {} could be wanted of by name", output.kind);
+            return Err(ModelError::Geometry { element, pointer, reason, fault: GeometryFault::Other });
+        };
         if known.contains(&of.as_str()) {
             continue;
         }
-        let reason = if known.is_empty() {
-            format!("there is nothing that {} could be wanted of by name", output.kind)
-        } else {
-            let guess = nearest_name(of, known.into_iter());
-            let guess = guess.map_or_else(String::new, |name| format!("; did you mean \"{name}\"?"));
-            format!("the scene has nothing called \"{of}\" there{guess}")
-        };
-        return Err(ModelError::Geometry {
-            element: format!("output \"{output}\""),
-            pointer: format!("/simulation/outputs/{index}"),
-            reason,
-        });
+        let nearest = nearest_name(of, known.into_iter());
+        return Err(ModelError::UnknownName { element, pointer, what, name: of.clone(), nearest });
     }
     Ok(())
 }
 
-/// Names of what an output can be wanted of.
-fn named(scene: &Scene, kind: OutputKind) -> Vec<&str> {
+/// What an output can be wanted of, if it can, and the names of those.
+fn named(scene: &Scene, kind: OutputKind) -> Option<(NamedElement, Vec<&str>)> {
     let joints = || scene.joints.iter().map(|joint| joint.name.as_str());
     let drivers = || scene.drivers.iter().map(crate::scene::Driver::name);
-    match kind {
+    Some(match kind {
         OutputKind::Bodies | OutputKind::Frames | OutputKind::Accelerations => {
-            scene.bodies.iter().map(|body| body.name.as_str()).collect()
+            (NamedElement::Body, scene.bodies.iter().map(|body| body.name.as_str()).collect())
         }
-        OutputKind::Reactions => joints().chain(drivers()).collect(),
-        OutputKind::Drivers => drivers().collect(),
-        OutputKind::Joints => joints().collect(),
-        OutputKind::Loads => scene.loads.iter().map(crate::scene::Load::name).collect(),
-        OutputKind::Markers => scene.markers.iter().map(|marker| marker.name.as_str()).collect(),
-        OutputKind::Energy | OutputKind::Balance | OutputKind::Violations | OutputKind::Errors => Vec::new(),
-    }
+        OutputKind::Reactions => (NamedElement::JointOrDriver, joints().chain(drivers()).collect()),
+        OutputKind::Drivers => (NamedElement::Driver, drivers().collect()),
+        OutputKind::Joints => (NamedElement::Joint, joints().collect()),
+        OutputKind::Loads => (NamedElement::Load, scene.loads.iter().map(crate::scene::Load::name).collect()),
+        OutputKind::Markers => {
+            (NamedElement::Marker, scene.markers.iter().map(|marker| marker.name.as_str()).collect())
+        }
+        OutputKind::Energy | OutputKind::Balance | OutputKind::Violations | OutputKind::Errors => {
+            return None;
+        }
+    })
 }
 
 /// Whether a joint's angle and slide are wanted.

@@ -17,7 +17,9 @@ pub(super) fn check(scene: &Scene, written: Option<&WrittenScene>) -> Result<(),
     let written = written.map_or_else(|| Cow::Owned(WrittenScene::new(scene)), Cow::Borrowed);
     let mut names = HashMap::new();
     for (index, parameter) in scene.parameters.iter().enumerate() {
-        unique_name(&mut names, "parameters", index, &parameter.name)?;
+        unique_name(&mut names, ("parameters", index), &parameter.name, index, |k| {
+            format!("parameters[{k}]")
+        })?;
         check_one(parameter, index, &written)?;
     }
     Ok(())

@@ -3,6 +3,7 @@
 //! The positions that a scene states are where the joints have the angle 0, or the one that is told of them. A joint with a start carries all bodies that
 //! hang on it. Joints that close loops are left open here: `constraints::start` closes them.
 
+use super::error::GeometryFault;
 use super::reader::ModelReader;
 use super::{BodyRef, JointGeometry, ModelBody, ModelError, ModelJoint};
 use crate::scene::{Joint, JointKind};
@@ -58,7 +59,7 @@ impl ModelStart {
             | JointKind::Gear => {
                 let reason = "only revolute, prismatic, cylindrical and screw joints have a start; \
                               place the bodies of others by their positions";
-                return Err(reader.wrong("start", reason));
+                return Err(reader.faulty("start", GeometryFault::TooMuch, reason));
             }
         };
         let numbers = [
@@ -71,7 +72,8 @@ impl ModelStart {
             let key = format!("start/{key}");
             match number {
                 Some(_) if !known => {
-                    return Err(reader.wrong(&key, format!("a {} joint has not {what}", joint.kind)));
+                    let reason = format!("a {} joint has not {what}", joint.kind);
+                    return Err(reader.faulty(&key, GeometryFault::TooMuch, reason));
                 }
                 Some(number) => reader.number(&key, number, -MAX_START, MAX_START)?,
                 None => 0.0,

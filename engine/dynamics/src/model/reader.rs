@@ -1,6 +1,6 @@
 //! Resolving names, points and vectors of the elements of a scene.
 
-use super::error::NO_LENGTH;
+use super::error::{GeometryFault, NamedElement};
 use super::output::{WITH_ANGLE, WITH_SLIDE};
 use super::{BodyRef, MAX_LENGTH, ModelBody, ModelError, ModelJoint, finite, within};
 use crate::model::motion::{Curve, VectorCurve};
@@ -38,12 +38,35 @@ impl ModelReader<'_> {
         format!("/{}/{}/{key}", self.list, self.index)
     }
 
+    /// The element, by its kind and name.
+    fn element(&self) -> String {
+        format!("{} \"{}\"", self.list.trim_end_matches('s'), self.name)
+    }
+
     /// An error about a key of the element.
     pub fn wrong(&self, key: &str, reason: impl Into<String>) -> ModelError {
-        ModelError::Geometry {
-            element: format!("{} \"{}\"", self.list.trim_end_matches('s'), self.name),
+        self.faulty(key, GeometryFault::Other, reason)
+    }
+
+    /// An error of a known kind about a key of the element.
+    pub fn faulty(&self, key: &str, fault: GeometryFault, reason: impl Into<String>) -> ModelError {
+        ModelError::Geometry { element: self.element(), pointer: self.at(key), reason: reason.into(), fault }
+    }
+
+    /// An error about the name of another element, which is none of the known ones.
+    pub fn unknown<'a>(
+        &self,
+        key: &str,
+        what: NamedElement,
+        name: &str,
+        known: impl Iterator<Item = &'a str>,
+    ) -> ModelError {
+        ModelError::UnknownName {
+            element: self.element(),
             pointer: self.at(key),
-            reason: reason.into(),
+            what,
+            name: name.to_owned(),
+            nearest: nearest_name(name, known),
         }
     }
 
@@ -56,12 +79,9 @@ impl ModelReader<'_> {
         if name == GROUND {
             return Ok(BodyRef::Ground);
         }
-        self.names.get(name).map(|&body| BodyRef::Moving(body)).ok_or_else(|| ModelError::UnknownBody {
-            element: format!("{} \"{}\"", self.list.trim_end_matches('s'), self.name),
-            pointer: self.at(key),
-            name: name.to_owned(),
-            nearest: nearest_name(name, self.bodies.iter().map(|b| b.name.as_str())),
-        })
+        let known = || self.bodies.iter().map(|body| body.name.as_str());
+        let found = self.names.get(name).map(|&body| BodyRef::Moving(body));
+        found.ok_or_else(|| self.unknown(key, NamedElement::Body, name, known()))
     }
 
     /// A moving body by its name.
@@ -84,18 +104,17 @@ impl ModelReader<'_> {
     pub fn joint(&self, name: &str, kinds: &[JointKind]) -> Result<usize, ModelError> {
         let key = if self.list == "events" { "of/joint" } else { "joint" };
         let Some(index) = self.joints.iter().position(|j| j.name == name) else {
-            let nearest = nearest_name(name, self.joints.iter().map(|j| j.name.as_str()));
-            let guess = nearest.map_or_else(String::new, |n| format!("; did you mean \"{n}\"?"));
-            // Of joints only a gear names others, and knows those before it.
-            let order =
-                if self.list == "joints" { " before it; a gear is written after its two joints" } else { "" };
-            return Err(self.wrong(key, format!("there is no joint \"{name}\"{order}{guess}")));
+            // A gear knows the joints before it.
+            let what = if self.list == "joints" { NamedElement::JointBefore } else { NamedElement::Joint };
+            return Err(self.unknown(key, what, name, self.joints.iter().map(|j| j.name.as_str())));
         };
-        if kinds.contains(&self.joints[index].kind()) {
-            Ok(index)
-        } else {
-            Err(self.wrong(key, format!("joint \"{name}\" is not of a kind that it can act in ({kinds:?})")))
+        let kind = self.joints[index].kind();
+        if kinds.contains(&kind) {
+            return Ok(index);
         }
+        let kinds: Vec<String> = kinds.iter().map(JointKind::to_string).collect();
+        let reason = format!("joint \"{name}\" is {kind}, and it needs one that is {}", kinds.join(" or "));
+        Err(self.wrong(key, reason))
     }
 
     /// A joint whose angle is measured.
@@ -132,7 +151,8 @@ impl ModelReader<'_> {
     ///
     /// [`ModelError`]: a number that is not finite, or a vector without length.
     pub fn unit(&self, key: &str, value: Triple) -> Result<Vector3<f64>, ModelError> {
-        self.vector(key, value)?.try_normalize(1e-12).ok_or_else(|| self.wrong(key, NO_LENGTH))
+        let unit = self.vector(key, value)?.try_normalize(1e-12);
+        unit.ok_or_else(|| self.faulty(key, GeometryFault::NoLength, "the vector has no length"))
     }
 
     /// A finite number in a range.
@@ -247,7 +267,7 @@ impl ModelReader<'_> {
                      too large for numbers on the way to it",
                     self.duration
                 );
-                return Err(self.wrong(key, reason));
+                return Err(self.faulty(key, GeometryFault::NoSeries, reason));
             }
             formula.find_wakes(self.duration);
         }

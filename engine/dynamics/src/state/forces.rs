@@ -142,16 +142,14 @@ impl SystemLoad {
         }
     }
 
-    /// The length, angle or displacement that it acts along, and its rate. A spring of no length has no direction to
-    /// pull in.
+    /// The length, angle or displacement that it acts along, and its rate: see [`direction`].
     pub(crate) fn coordinate(&self, at: &State) -> Option<(f64, f64)> {
         match self {
             Self::Force { .. } | Self::Moment { .. } => None,
             Self::Spring { from, to, .. } => {
                 let between = at.feature_value(*to) - at.feature_value(*from);
                 let rate = at.feature_rate(*to) - at.feature_rate(*from);
-                let direction = between.try_normalize(f64::MIN_POSITIVE)?;
-                Some((between.norm(), direction.dot(&rate)))
+                Some((between.norm(), direction(&between, &rate)?.dot(&rate)))
             }
             Self::Torsion { angle, .. } => Some((at.angles[*angle].value, at.angles[*angle].rate)),
             Self::Slider { axis, between, .. } => {
@@ -217,7 +215,8 @@ impl SystemLoad {
             Self::Force { .. } | Self::Moment { .. } => {}
             Self::Spring { from, to, .. } => {
                 let between = at.feature_value(*to) - at.feature_value(*from);
-                let Some(direction) = between.try_normalize(f64::MIN_POSITIVE) else { return };
+                let rate = at.feature_rate(*to) - at.feature_rate(*from);
+                let Some(direction) = direction(&between, &rate) else { return };
                 forces.add_at_feature(system, *to, &(direction * value));
                 forces.add_at_feature(system, *from, &(direction * -value));
             }
@@ -266,7 +265,7 @@ impl SystemLoad {
             Self::Spring { from, to, law } => {
                 let between = at.feature_value(*to) - at.feature_value(*from);
                 let rate = at.feature_rate(*to) - at.feature_rate(*from);
-                let speed = between.try_normalize(f64::MIN_POSITIVE).map_or(0.0, |d| d.dot(&rate));
+                let speed = direction(&between, &rate).map_or(0.0, |d| d.dot(&rate));
                 law.without_spring(speed, t) * speed
             }
             Self::Torsion { angle, law, .. } => {
@@ -311,4 +310,9 @@ fn in_world(at: &State, body: usize, frame: LoadFrame, vector: Vector3<f64>) -> 
         LoadFrame::World => vector,
         LoadFrame::Body => at.bodies[body].q.arm(&vector),
     }
+}
+
+/// The direction from one point to another. Points that meet part along their velocity; at rest they have none, and nothing between them pulls.
+fn direction(between: &Vector3<f64>, rate: &Vector3<f64>) -> Option<Vector3<f64>> {
+    between.try_normalize(f64::MIN_POSITIVE).or_else(|| rate.try_normalize(f64::MIN_POSITIVE))
 }

@@ -5,16 +5,16 @@ use crate::scene::Coordinates;
 use crate::system::natural::{Layout, NaturalCoordinates};
 use nalgebra::{Matrix3, Vector3};
 
-/// Principal moment of inertia, relative to m l² with l the longest arm of the body's own joints, below which the inertia is
+/// Principal moment of inertia, relative to m l² with l the longest arm of the body's own joints and loads, below which the inertia is
 /// regularized: S would be too ill-conditioned to be factored. It has to be small: what turns about such an axis by itself, like a wire in a
 /// hinge, is then moved by its inertia and δ, and the iteration that takes δ out again hardly gets on.
 pub const LACKING: f64 = 1e-9;
 /// δ over m l² of a body that lacks inertia, at most and at least — eq. (7.8).
 const REGULARIZING_INERTIA: f64 = 1e-4;
 const LEAST_REGULARIZING: f64 = 1e-6;
-/// δ over the least moment of inertia that other bodies lend it through joints, between these: the iteration that takes δ out again leaves
-/// δ/(δ + I) at each step, and rounding grows as δ falls.
-const LENT: f64 = 0.1;
+/// δ over the least moment of inertia of all bodies, between these: the iteration that takes δ out again leaves δ/(δ + I) at each step, I the
+/// inertia that joints lend, and rounding grows as δ falls.
+const BELOW_LEAST: f64 = 0.1;
 /// Principal moment of inertia, relative to the largest one, that is rounding: a tensor in numbers has no exact zero.
 const NONE: f64 = 1e-14;
 
@@ -72,9 +72,16 @@ pub fn least_inertia<'a>(principal: impl Iterator<Item = &'a Vector3<f64>>) -> f
     principal.map(own).fold(f64::INFINITY, f64::min)
 }
 
-/// δ of a body with this m l² among bodies whose least moment of inertia is this.
-pub fn regularizing_inertia(scale: f64, least: f64) -> f64 {
-    (LENT * least).max(LEAST_REGULARIZING * scale).min(REGULARIZING_INERTIA * scale)
+/// δ of a body with these least and greatest moments of inertia about its axes, kg m², among bodies whose least is `among`; zero if it lacks
+/// none. `of_arm` is m l² of its longest arm, `of_length` that of the mechanism's length, for a body without arms.
+pub fn regularizing_inertia([least, greatest]: [f64; 2], of_arm: f64, of_length: f64, among: f64) -> f64 {
+    // A free body needs help only where a moment is missing.
+    let lacks = least < LACKING * of_arm || (least <= NONE * greatest && of_arm == 0.0);
+    if !lacks {
+        return 0.0;
+    }
+    let scale = if of_arm == 0.0 { greatest.max(of_length) } else { of_arm };
+    (BELOW_LEAST * among).max(LEAST_REGULARIZING * scale).min(REGULARIZING_INERTIA * scale)
 }
 
 impl RigidBody {
@@ -83,15 +90,12 @@ impl RigidBody {
     pub fn new(body: &ModelBody, layout: Layout, arm: f64, length: f64, least: f64) -> Self {
         let j = body.principal;
         let half = 0.5 * j.sum();
-        // A free body needs help only where a moment is missing.
-        let scale = body.mass * arm * arm;
-        let lacks = j.min() < LACKING * scale || (j.min() <= NONE * j.max() && scale == 0.0);
-        let scale = if scale == 0.0 { j.max().max(body.mass * length * length) } else { scale };
+        let [of_arm, of_length] = [arm, length].map(|l| body.mass * l * l);
         Self {
             mass: body.mass,
             principal: j,
             ibar: j.map(|i| (half - i).max(0.0)),
-            regularizing_inertia: if lacks { regularizing_inertia(scale, least) } else { 0.0 },
+            regularizing_inertia: regularizing_inertia([j.min(), j.max()], of_arm, of_length, least),
             coordinates: body.coordinates,
             layout,
             parts: Vec::new(),
@@ -100,11 +104,11 @@ impl RigidBody {
         }
     }
 
-    /// Lends it, if it lacks inertia, as much as in another description: bodies that turn together about axes without inertia share the motion
-    /// as they are lent.
-    pub fn lend_as(&mut self, other: &Self) {
-        if self.regularizing_inertia > 0.0 && other.regularizing_inertia > 0.0 {
-            self.regularizing_inertia = other.regularizing_inertia;
+    /// Takes the δ of another description of the body, if both lack inertia: bodies that turn together about axes without some share the motion
+    /// in the ratio of their δ.
+    pub fn regularize_as(&mut self, other: f64) {
+        if self.regularizing_inertia > 0.0 && other > 0.0 {
+            self.regularizing_inertia = other;
         }
     }
 

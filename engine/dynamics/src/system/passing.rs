@@ -10,6 +10,8 @@ use nalgebra::Vector3;
 /// the tolerance, and least.
 const MET_PART: f64 = 1e-3;
 const MET: f64 = 1e-12;
+/// Roundings of time in the shortest step that they make.
+const SHORTEST: f64 = 64.0;
 
 /// How the points of a spring approach each other at a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +61,11 @@ impl System {
 /// How near points come that have met, in a mechanism of a length and at a tolerance, m.
 pub fn met(tolerance: f64, length: f64) -> f64 {
     MET.max(MET_PART * tolerance) * length
+}
+
+/// The shortest step that passing points may ask for at time t of a run to `end`, s: time has no finer parts.
+pub fn shortest_step(t: f64, end: f64) -> f64 {
+    SHORTEST * f64::EPSILON * t.abs().max(end.abs())
 }
 
 /// The longest step beside points that pass each other, whose squared distance is now a and a + b t + c t² afterwards, s: `part` of the way to

@@ -116,7 +116,7 @@ impl Pivot {
         let pivot = Some(GroundPivot { ground, center: axes.tr_mul(&-point) });
         let least = least_inertia(held.bodies.iter().map(|body| &body.principal));
         let mut body = RigidBody::new(&model, old.layout, arm, held.length, least);
-        body.lend_as(old);
+        body.regularize_as(old.regularizing_inertia);
         held.bodies[index] = RigidBody { parts, pivot, ..body };
         for load in &mut held.loads {
             load.turn(|body| (body == index).then(|| (axes.transpose(), point)), None);

@@ -8,7 +8,7 @@
 
 use crate::model::motion::{Curve, VectorCurve};
 use crate::model::{BodyRef, JointGeometry, ModelJoint};
-use crate::system::body::{LACKING, PlanarPose, RigidBody, least_inertia, regularizing_inertia};
+use crate::system::body::{PlanarPose, RigidBody, least_inertia, regularizing_inertia};
 use crate::system::feature::{Difference, Target};
 use crate::system::index::FeatureId;
 use crate::system::natural::NaturalCoordinates;
@@ -156,26 +156,16 @@ impl Plane {
 }
 
 fn set_inertia(flat: &mut System) {
-    let mut arms = vec![0.0f64; flat.bodies.len()];
-    for feature in flat.features.iter().filter(|f| f.point) {
-        if let BodyRef::Moving(body) = feature.body {
-            arms[body] = arms[body].max(feature.local.xy().norm());
-        }
-    }
+    let arms = flat.arms(|local| local.xy().norm());
     let least = least_inertia(flat.bodies.iter().map(|body| &body.principal));
     for (body, arm) in flat.bodies.iter_mut().zip(arms) {
         let normal = directors(body).row(2).transpose();
         let inertia = body.principal.dot(&normal.component_mul(&normal));
         body.ibar = Vector3::new(inertia, 0.0, 0.0);
-        let scale = body.mass * arm * arm;
-        let lacks = inertia < LACKING * scale || inertia == 0.0;
-        let scale = if scale == 0.0 { body.mass * flat.length * flat.length } else { scale };
-        let lent = if body.regularizing_inertia > 0.0 {
-            body.regularizing_inertia
-        } else {
-            regularizing_inertia(scale, least)
-        };
-        body.regularizing_inertia = if lacks { lent } else { 0.0 };
+        let [of_arm, of_length] = [arm, flat.length].map(|l| body.mass * l * l);
+        let in_space = body.regularizing_inertia;
+        body.regularizing_inertia = regularizing_inertia([inertia; 2], of_arm, of_length, least);
+        body.regularize_as(in_space);
     }
 }
 

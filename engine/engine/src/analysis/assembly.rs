@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::{ConstraintError, quoted};
-use triad_dynamics::constraints::{rough, start};
+use triad_dynamics::constraints::{rough, start, violation};
 use triad_dynamics::model::{BodyRef, JointGeometry, Model, ModelJoint};
 use triad_dynamics::newton::{project_velocities, rules};
 use triad_dynamics::system::System;
@@ -60,7 +60,7 @@ pub struct Assembly {
 ///
 /// [`AnalysisError`]: a scene that cannot be, joints that cannot be closed, or a body that cannot be kept in place.
 pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisError> {
-    assemble_if(scene, pinned, &Wanted::default())
+    assemble_while(scene, pinned, &Wanted::default())
 }
 
 /// As [`assemble`], as long as it is wanted.
@@ -68,7 +68,7 @@ pub fn assemble(scene: &Scene, pinned: &[String]) -> Result<Assembly, AnalysisEr
 /// # Errors
 ///
 /// As [`assemble`], and [`AnalysisError::NoLongerWanted`].
-pub fn assemble_if(scene: &Scene, pinned: &[String], wanted: &Wanted) -> Result<Assembly, AnalysisError> {
+pub fn assemble_while(scene: &Scene, pinned: &[String], wanted: &Wanted) -> Result<Assembly, AnalysisError> {
     let mut model = Model::new(scene).map_err(EngineError::from)?;
     for (index, name) in pinned.iter().enumerate() {
         let Some(place) = model.bodies.iter().position(|body| body.name == *name) else {
@@ -84,10 +84,8 @@ pub fn assemble_if(scene: &Scene, pinned: &[String], wanted: &Wanted) -> Result<
     mechanism.set_state(0.0, &y);
     let (violation, iterations, left) = rough::close(&mut mechanism, &mut y, &|| wanted.is_still());
     wanted.check()?;
-    // A comparison that is false for NaN as well.
-    let closed = left <= 1e-9 * mechanism.system.length.max(1.0);
-    if !closed {
-        let open = triad_dynamics::constraints::violation::measure(&mechanism.system, &mechanism.state);
+    if !violation::is_closed(&mechanism.system, &mechanism.state) {
+        let open = violation::measure(&mechanism.system, &mechanism.state);
         let violation = open.relative;
         if let Some(body) = pinned.first() {
             let reason = format!("then the joints stay open by {violation:.3e}");

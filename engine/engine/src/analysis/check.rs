@@ -97,7 +97,7 @@ pub fn check(scene: &Scene) -> Result<CheckReport, EngineError> {
 /// # Errors
 ///
 /// As [`check`], and [`AnalysisError::NoLongerWanted`].
-pub fn check_if(scene: &Scene, wanted: &Wanted) -> Result<CheckReport, AnalysisError> {
+pub fn check_while(scene: &Scene, wanted: &Wanted) -> Result<CheckReport, AnalysisError> {
     let still = || wanted.is_still();
     let model = Model::new(scene).map_err(EngineError::from)?;
     let assembled = start::assemble(model, &still);

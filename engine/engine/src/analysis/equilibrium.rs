@@ -47,6 +47,10 @@ pub struct Equilibrium {
     pub iterations: usize,
     /// Generalized force that is left, N.
     pub residual: f64,
+    /// How far the bodies may be from rest, m, rotations times the mechanism's length: what is left of the forces, or their rounding, over the
+    /// stiffness. `None` where some motion meets no stiffness.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<f64>,
     /// Smallest stiffness along a small motion, N/m: a position with a negative one is left at a touch. Motions are
     /// measured by the displacements of all bodies and by their rotations times the mechanism's length, squared and
     /// added.
@@ -83,7 +87,7 @@ pub struct Equilibrium {
 /// # Ok::<(), triad_engine::analysis::AnalysisError>(())
 /// ```
 pub fn equilibrium(scene: &Scene) -> Result<Equilibrium, AnalysisError> {
-    equilibrium_if(scene, &Wanted::default())
+    equilibrium_while(scene, &Wanted::default())
 }
 
 /// As [`equilibrium`], as long as it is wanted.
@@ -91,10 +95,12 @@ pub fn equilibrium(scene: &Scene) -> Result<Equilibrium, AnalysisError> {
 /// # Errors
 ///
 /// As [`equilibrium`], and [`AnalysisError::NoLongerWanted`].
-pub fn equilibrium_if(scene: &Scene, wanted: &Wanted) -> Result<Equilibrium, AnalysisError> {
+pub fn equilibrium_while(scene: &Scene, wanted: &Wanted) -> Result<Equilibrium, AnalysisError> {
     let mut stage = Stage::new(scene)?;
     stage.wanted = wanted.clone();
-    find(&mut stage)
+    stage.hold_drivers();
+    let found = find(&mut stage)?;
+    told(&mut stage, found)
 }
 
 /// Eigenvalues and eigenvectors of the symmetric part; none where nothing can move.
@@ -157,6 +163,16 @@ impl Held {
         unbalanced.fold(0.0, f64::max)
     }
 
+    /// How far from rest the position is, m: along each motion what is left, or the rounding of the forces on bodies, over its stiffness.
+    fn error(&self, Stiffness { along, motions, .. }: &Stiffness) -> Option<f64> {
+        let rounded = SEVERAL * f64::EPSILON * self.largest;
+        let left = motions.tr_mul(&self.along);
+        let off =
+            left.iter().zip(along.iter()).map(|(left, stiffness)| left.abs().max(rounded) / stiffness.abs());
+        let squares: f64 = off.map(|off| off * off).sum();
+        Some(squares.sqrt()).filter(|error| error.is_finite())
+    }
+
     /// Work of the forces for each unit of a motion, of which the part counts that the joints allow here.
     fn push(&self, motion: &DVector<f64>, length: f64) -> f64 {
         let mut measured = motion.clone();
@@ -165,8 +181,15 @@ impl Held {
     }
 }
 
+/// What a stage that has been moved to equilibrium is like there.
+pub(super) struct Found {
+    held: Held,
+    stiffness: Stiffness,
+    iterations: usize,
+}
+
 /// Moves a stage to equilibrium.
-pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
+pub(super) fn find(stage: &mut Stage) -> Result<Found, AnalysisError> {
     stage.rest();
     let mut held = Held::new(stage)?;
     let mut reach = LARGEST * stage.mechanism.system.length;
@@ -182,7 +205,8 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
         let balanced = held.is_balanced(&stiffness.motions);
         // Of rounding no step takes more away; whatever else there is still becomes smaller.
         if balanced || (rounded && residual > STALLED * before) {
-            return found(stage, &held, &stiffness, steps);
+            stage.rest();
+            return Ok(Found { held, stiffness, iterations: steps });
         }
         let next = if residual.is_finite() {
             let nothing = rounding(stage).max(BALANCED * held.largest);
@@ -194,8 +218,11 @@ pub(super) fn find(stage: &mut Stage) -> Result<Equilibrium, AnalysisError> {
         };
         before = residual;
         let Some(next) = next else {
-            if rounded {
-                return found(stage, &held, &stiffness, steps);
+            // Where branches of the motion meet, positions are known to the root of their rounding.
+            let near = SHORT * stage.mechanism.system.length;
+            if rounded || held.error(&stiffness).is_some_and(|error| error < near) {
+                stage.rest();
+                return Ok(Found { held, stiffness, iterations: steps });
             }
             let body = stage.foremost(&(&held.basis * &held.along));
             return Err(AnalysisError::NoEquilibrium { iterations: steps, residual, body });
@@ -226,19 +253,16 @@ pub(super) fn largest_part(stage: &Stage) -> f64 {
 }
 
 /// The position of rest at which the stage is.
-fn found(
+fn told(
     stage: &mut Stage,
-    held: &Held,
-    stiffness: &Stiffness,
-    iterations: usize,
+    Found { held, stiffness, iterations }: Found,
 ) -> Result<Equilibrium, AnalysisError> {
-    stage.rest();
     let least = stiffness.along.iter().fold(f64::INFINITY, |a, b| a.min(*b));
     let Stability { stable, note } =
-        stability::judge(stage, &held.basis, stiffness, &held.carried(&stiffness.motions));
+        stability::judge(stage, &held.basis, &stiffness, &held.carried(&stiffness.motions));
     stage.rest();
     let mut notes: Vec<String> = note.into_iter().collect();
-    let off = held.off_by(stiffness);
+    let off = held.off_by(&stiffness);
     if off > TOLD * stage.mechanism.system.length {
         notes.push(format!(
             "springs are too different to find it: what is left of the forces, {:.1e} N, is the rounding of the stiffest, and moves what the \
@@ -253,6 +277,7 @@ fn found(
     Ok(Equilibrium {
         iterations,
         residual: held.along.amax(),
+        error: held.error(&stiffness).filter(|error| *error < stage.mechanism.system.length),
         least_stiffness: if least.is_finite() { least } else { 0.0 },
         stable,
         bodies: stage.frames(),

@@ -84,7 +84,7 @@ pub struct Kinematics {
 /// # Ok::<(), triad_engine::analysis::AnalysisError>(())
 /// ```
 pub fn kinematics(scene: &Scene, convention: Convention) -> Result<Kinematics, AnalysisError> {
-    kinematics_if(scene, convention, &Wanted::default())
+    kinematics_while(scene, convention, &Wanted::default())
 }
 
 /// As [`kinematics`], as long as they are wanted.
@@ -92,7 +92,7 @@ pub fn kinematics(scene: &Scene, convention: Convention) -> Result<Kinematics, A
 /// # Errors
 ///
 /// As [`kinematics`], and [`AnalysisError::NoLongerWanted`].
-pub fn kinematics_if(
+pub fn kinematics_while(
     scene: &Scene,
     convention: Convention,
     wanted: &Wanted,
@@ -140,13 +140,19 @@ pub fn kinematics_if(
         );
     }
     notes.extend(path.doubts());
+    let correction = path.correction;
+    let mut events = path.events().to_vec();
+    for event in &mut events {
+        let error = correction.max(f64::EPSILON) / event.rate.abs();
+        event.error = Some(error).filter(|error| error.is_finite());
+    }
     Ok(Kinematics {
         states,
         iterations: path.iterations,
         steps: path.steps(),
-        correction: path.correction,
+        correction,
         singularities,
-        events: path.events().to_vec(),
+        events,
         notes,
     })
 }

@@ -89,7 +89,7 @@ pub struct Modes {
 /// # Ok::<(), triad_engine::analysis::AnalysisError>(())
 /// ```
 pub fn modes(scene: &Scene, about: ModesAbout) -> Result<Modes, AnalysisError> {
-    modes_if(scene, about, &Wanted::default())
+    modes_while(scene, about, &Wanted::default())
 }
 
 /// As [`modes`], as long as they are wanted.
@@ -97,11 +97,14 @@ pub fn modes(scene: &Scene, about: ModesAbout) -> Result<Modes, AnalysisError> {
 /// # Errors
 ///
 /// As [`modes`], and [`AnalysisError::NoLongerWanted`].
-pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Modes, AnalysisError> {
+pub fn modes_while(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Modes, AnalysisError> {
     let mut stage = Stage::new(scene)?;
     stage.wanted = wanted.clone();
     let mut notes = left_out_of_start(&stage, about);
     let moving = stage.q_dot.iter().any(|v| *v != 0.0);
+    if about != ModesAbout::Steady {
+        stage.hold_drivers();
+    }
     short_springs::leave_out_held(&mut stage)?;
     let steady = match about {
         ModesAbout::Equilibrium => {
@@ -113,16 +116,13 @@ pub fn modes_if(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<Mod
     };
     let (steady, unfelt) = steady.unzip();
     if steady.is_some() && moving && stage.flow.is_rest() {
-        notes.push(
-            "velocities of the start are left out: they belong to no motion in which all bodies keep their places in a frame, and \
-             the steady motion near the start is rest"
-                .to_owned(),
-        );
+        notes.push(NEAREST_IS_REST.to_owned());
     }
     stage.rest();
     short_springs::leave_out_jumping(&mut stage, &mut notes);
     let mut basis = stage.tangent()?;
     let freedoms = basis.ncols();
+    notes.extend(stage.singular_note());
     if let Some(unfelt) = &unfelt {
         basis = unfelt.across(&stage, basis);
     }
@@ -176,6 +176,10 @@ fn left_out_of_start(stage: &Stage, about: ModesAbout) -> Vec<String> {
     }
     notes
 }
+
+/// That no motion belongs to the velocities of the start.
+const NEAREST_IS_REST: &str = "velocities of the start are left out: they belong to no motion in which all bodies keep their places in a \
+                               frame, and the steady motion near the start is rest";
 
 /// The linear equations of the small motions.
 struct SmallMotions {

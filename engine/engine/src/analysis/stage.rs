@@ -11,12 +11,13 @@ use nalgebra::{DMatrix, DVector, Rotation3, RowDVector, Vector3};
 use std::ops::AddAssign;
 use triad_dynamics::constraints::geometry::Geometry;
 use triad_dynamics::constraints::mechanism::Mechanism;
-use triad_dynamics::constraints::start;
+use triad_dynamics::constraints::{rank, start};
 use triad_dynamics::dynamics::elimination::{Accelerations, ProjectableState};
 use triad_dynamics::model::Model;
 use triad_dynamics::newton::{project_positions, rules};
 use triad_dynamics::state::{AppliedForces, BodyFrame, State};
 use triad_dynamics::system::index::IncidenceId;
+use triad_dynamics::system::islands;
 use triad_dynamics::system::load::SystemLoad;
 use triad_dynamics::system::natural::NaturalCoordinates;
 
@@ -75,6 +76,17 @@ impl Stage {
         let geometry = Geometry::new(&mechanism.system);
         let (flow, momenta, wanted) = (Flow::default(), None, Wanted::default());
         Ok(Self { mechanism, geometry, q: start, q_dot, time: 0.0, flow, momenta, notes, wanted })
+    }
+
+    /// Has drivers stay as they are: a position of rest knows nothing of how they go on.
+    pub(super) fn hold_drivers(&mut self) {
+        let (turns, mut model) = (self.turns(), self.mechanism.system.model.clone());
+        model.drivers.iter_mut().for_each(|driver| driver.kind.hold(self.time));
+        (self.mechanism, _) = Mechanism::from_model(model);
+        self.mechanism.elimination.set_redundant(true);
+        self.geometry = Geometry::new(&self.mechanism.system);
+        let at = self.q.clone();
+        self.put_back(&at, &turns);
     }
 
     /// Takes over the held position at rest, or in the steady motion.
@@ -154,6 +166,23 @@ impl Stage {
         state.set_positions(system, &self.q);
         self.geometry.place(state);
         self.geometry.freedoms()
+    }
+
+    /// That rows lose their hold at the held position, if some do: more motions seem to be allowed there than are.
+    pub fn singular_note(&mut self) -> Option<String> {
+        let Mechanism { system, state, .. } = &mut self.mechanism;
+        if islands::is_tree(&system.model) {
+            return None;
+        }
+        let rank = rank::analyze_while(system, state, &self.q, &|| self.wanted.is_still());
+        self.rest();
+        let lost = rank.rank.saturating_sub(rank.at_start);
+        (lost > 0).then(|| {
+            format!(
+                "the position is singular: {lost} rows lose their hold there, and branches of motion meet. The linear equations allow all that \
+                 these rows let through: some of the modes are motions of no branch"
+            )
+        })
     }
 
     /// An orthonormal basis of small motions, lengths of arc measured with the mechanism's length: columns of

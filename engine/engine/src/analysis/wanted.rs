@@ -27,8 +27,12 @@ impl Wanted {
         !self.0.load(Ordering::Relaxed)
     }
 
-    /// Errors if nobody waits for it.
-    pub(super) fn check(&self) -> Result<(), AnalysisError> {
+    /// Goes on only if somebody waits for it.
+    ///
+    /// # Errors
+    ///
+    /// [`AnalysisError::NoLongerWanted`].
+    pub fn check(&self) -> Result<(), AnalysisError> {
         if self.is_still() { Ok(()) } else { Err(AnalysisError::NoLongerWanted) }
     }
 }

@@ -111,10 +111,16 @@ impl Integrator {
         leader.is_some_and(|other| self.stepper.follow(mechanism, other))
     }
 
+    /// Takes the last step back as well, to search what lies ahead by shorter ones: no sign of a run that gets nowhere.
+    pub fn take_back_to_search(&mut self, mechanism: &mut Mechanism) {
+        self.stepper.retreat(mechanism);
+        self.progress.restart(self.last().t);
+    }
+
     /// Takes the last step back, so that a shorter one can be taken instead.
     pub fn take_back(&mut self, mechanism: &mut Mechanism) {
         self.stepper.retreat(mechanism);
-        self.progress.restart(self.last().t);
+        self.progress.take_back(self.last().t);
     }
 
     /// Where a step that is not to go beyond `end` ends at the latest: where a given function of time that has rested begins to change, in small

@@ -3,7 +3,7 @@
 
 use super::step::StepRecord;
 use triad_dynamics::system::System;
-use triad_dynamics::system::passing::{Approach, longest_step};
+use triad_dynamics::system::passing::{Approach, longest_step, shortest_step};
 
 /// Part of the way to where the points pass, in time and in the complex plane, that a step may go. On the way back it counts too: what stages
 /// see of it within a step may be nothing.
@@ -33,6 +33,6 @@ impl Passings {
         });
         let longest = steps.fold(f64::INFINITY, f64::min);
         self.then = last.t;
-        end.min(last.t + longest)
+        end.min(last.t + longest.max(shortest_step(last.t, system.model.settings.duration)))
     }
 }

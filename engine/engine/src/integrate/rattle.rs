@@ -16,6 +16,7 @@ use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::ode::OdeSystem;
 use triad_dynamics::state::{Residual, State};
 use triad_dynamics::system::natural::NaturalCoordinates;
+use triad_linalg::larger_or_nan;
 
 /// Substeps of the composition by Kahan and Li (1997), in parts of a step; the first five, the others mirror them.
 const PARTS: [f64; 5] = [
@@ -367,5 +368,5 @@ fn scaled(factor: f64, a: &NaturalCoordinates) -> NaturalCoordinates {
 fn largest(a: &NaturalCoordinates) -> f64 {
     let amax = |v: &Vector3<f64>| if v.iter().any(|x| x.is_nan()) { f64::NAN } else { v.amax() };
     let all = [amax(&a.r), amax(&a.e[0]), amax(&a.e[1]), amax(&a.e[2])];
-    all.into_iter().fold(0.0, |a: f64, b| if a > b || a.is_nan() { a } else { b })
+    all.into_iter().fold(0.0, larger_or_nan)
 }

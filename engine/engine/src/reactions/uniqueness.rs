@@ -92,7 +92,7 @@ pub struct NullSpace {
     pub basis: DMatrix<f64>,
     /// The same for rows scaled to unit length.
     scaled: DMatrix<f64>,
-    /// Length of each solver row, rotations measured along the mechanism's length.
+    /// Length of each solver row: see [`lengths`].
     lengths: Vec<f64>,
 }
 
@@ -224,18 +224,20 @@ impl NullSpace {
     }
 }
 
-/// Length of each solver row, rotations measured along the mechanism's length.
+/// Length of each solver row: of the force that a multiplier of one makes, or of its moment, over the mechanism's length, where it makes none.
+/// That of the force is the same for all rows of a point, however the scene lies in the world.
 fn lengths(system: &System, jacobian: &TwistJacobian) -> Vec<f64> {
-    let mut squares = vec![0.0; system.solver_rows];
+    let mut squares = vec![[0.0; 2]; system.solver_rows];
     for (index, incidence) in system.incidences.iter().enumerate() {
         let first = system[incidence.constraint].solver.start;
         let rows = jacobian.rows_on(system, IncidenceId(index)).chunks_exact(6);
         for (row, square) in rows.zip(&mut squares[first..]) {
             let part = |numbers: &[f64]| numbers.iter().map(|x| x * x).sum::<f64>();
-            *square += part(&row[..3]) + part(&row[3..]) / (system.length * system.length);
+            square[0] += part(&row[..3]);
+            square[1] += part(&row[3..]) / (system.length * system.length);
         }
     }
-    squares.into_iter().map(f64::sqrt).collect()
+    squares.into_iter().map(|[force, moment]| if force > 0.0 { force } else { moment }.sqrt()).collect()
 }
 
 fn distance(count: usize, to: f64) -> f64 {

@@ -35,7 +35,7 @@ impl Simulation {
 
     /// Whether bodies have come to move together with next to no inertia.
     pub(super) fn without_inertia(&self) -> Option<Cause> {
-        let (time, bodies) = self.seen.hardly_inert.as_ref()?;
+        let (time, bodies) = self.lent_inertia.hardly_inert.as_ref()?;
         let named = |body: &usize| self.model().bodies[*body].name.clone();
         Some(Cause::WithoutInertia { time: *time, bodies: bodies.iter().map(named).collect() })
     }

@@ -3,7 +3,7 @@
 
 use super::ringing::Ringing;
 use crate::integrate::{self, Integrator, StepRecord};
-use crate::scene::{ConstraintMethod, IntegratorKind};
+use crate::scene::IntegratorKind;
 use triad_dynamics::constraints::mechanism::Mechanism;
 
 /// Tolerance of the second solution over that of the first: its own error then spoils the estimate by a few parts in a hundred
@@ -84,10 +84,8 @@ impl Companion {
         };
         let mut mechanism = mechanism.clone();
         let settings = &mut mechanism.system.model.settings;
-        settings.tolerance = tolerance;
-        settings.step = None;
-        settings.constraint_method = ConstraintMethod::Projection;
-        settings.integrator = if stiff { IntegratorKind::Radau } else { IntegratorKind::Auto };
+        let by = if stiff { IntegratorKind::Radau } else { IntegratorKind::Auto };
+        settings.compare_by(by, tolerance);
         let (kind, _) = integrate::choose(&mut mechanism, y);
         mechanism.set_state(t, y);
         let integrator = Integrator::start_beside(kind, &mut mechanism, t, y);

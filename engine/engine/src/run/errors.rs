@@ -3,9 +3,12 @@
 use super::Simulation;
 use super::companion::{self, Lost};
 use super::state_view::{CachedState, sign};
-use crate::scene::IntegratorKind;
+use crate::error::EngineError;
+use crate::reactions::report::{Convention, ReactionComponent, report};
+use crate::scene::{IntegratorKind, OutputKind};
 use nalgebra::Vector3;
 use serde::Serialize;
+use triad_dynamics::model::{BodyRef, ModelBody};
 use triad_dynamics::state::{BodyFrame, State};
 use triad_dynamics::system::body::RigidBody;
 
@@ -31,11 +34,11 @@ const NOTHING: f64 = 100.0 * f64::EPSILON;
 /// not what one step adds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ErrorEstimate {
-    /// Of centres of mass, m.
+    /// Of centres of mass and markers, m; also of where the frames of bodies begin, if those are chosen as outputs.
     pub position: f64,
     /// Of directors: an angle for small ones, rad.
     pub turn: f64,
-    /// Of velocities of centres of mass, m/s.
+    /// Of their velocities, m/s.
     pub velocity: f64,
     /// Of angular velocities, rad/s.
     pub angular_velocity: f64,
@@ -117,6 +120,31 @@ impl Simulation {
             moment,
             largest_moment: unless_rounding(largest_moment, length * largest_force),
         })
+    }
+
+    /// The same of reactions as [`Simulation::reactions`] tells them: about other points, and along axes that turn, their numbers have other
+    /// errors than in the world.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError::Uniqueness`] where it cannot be decided which of them are unique.
+    pub fn reaction_errors_as_told(
+        &self,
+        convention: Convention,
+    ) -> Result<Option<ReactionErrors>, EngineError> {
+        let (Some(mut errors), Some(better)) = (self.reaction_errors(), self.better()) else {
+            return Ok(None);
+        };
+        let here = self.reactions(convention)?;
+        let there = report(&self.current.multipliers_of(better, self), convention)?;
+        let off = |a: [ReactionComponent; 3], b: [ReactionComponent; 3]| {
+            Vector3::from_fn(|k, _| a[k].value - b[k].value).norm()
+        };
+        for (here, there) in here.reactions.iter().zip(&there.reactions) {
+            errors.force = errors.force.max(off(here.force, there.force));
+            errors.moment = errors.moment.max(off(here.moment, there.moment));
+        }
+        Ok(Some(errors))
     }
 
     /// Writes what the error of the current state is changed by, first, and from there to another change of it.
@@ -260,6 +288,17 @@ impl Simulation {
         of_bodies.chain(loads).sum()
     }
 
+    /// Points that are shown beside centres of mass: markers, and where the author's frames begin if those are wanted.
+    fn points_shown(&self) -> impl Iterator<Item = (BodyRef, Vector3<f64>)> {
+        let model = self.model();
+        let frames = model.settings.outputs.iter().any(|output| output.kind == OutputKind::Frames);
+        let bodies = model.bodies.iter().enumerate().filter(move |_| frames);
+        let begins = |(index, body): (usize, &ModelBody)| {
+            (BodyRef::Moving(index), body.point_to_principal(&Vector3::zeros()))
+        };
+        bodies.map(begins).chain(model.markers.iter().map(|marker| (marker.body, marker.local)))
+    }
+
     /// The current state compared with that without an error.
     fn compare(&self, better: &CachedState) -> ErrorEstimate {
         let (here, there) = (self.current.state(self.system()), better.state(self.system()));
@@ -273,6 +312,13 @@ impl Simulation {
             for (k, (a, b)) in of(&a).into_iter().zip(of(&b)).enumerate() {
                 errors[k] = errors[k].max(apart(a, b));
                 numbers[k] = numbers[k].max(apart(a, [0.0; 3]));
+            }
+        }
+        for (body, local) in self.points_shown() {
+            let [a, b] = [here, there].map(|state| state.point(body, &local).map(<[f64; 3]>::from));
+            for k in 0..2 {
+                errors[k] = errors[k].max(apart(a[k], b[k]));
+                numbers[k] = numbers[k].max(apart(a[k], [0.0; 3]));
             }
         }
         let worth = |k: usize| errors[k].sqrt().max(f64::EPSILON * numbers[k].sqrt());

@@ -30,6 +30,9 @@ pub struct EventOccurrence {
     pub name: String,
     /// Time, s.
     pub time: f64,
+    /// How far the time may be off by the estimate of the run, s: none where that is not known, and where the quantity hardly changes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<f64>,
     /// Rate of the quantity there, m/s or rad/s.
     pub rate: f64,
     /// Whether the run ends there.
@@ -46,6 +49,7 @@ impl Simulation {
     /// Forgets all events and begins again at the current state, where the integrator has just been started.
     pub(super) fn restart_events(&mut self) {
         self.occurrences.clear();
+        self.judged_events = 0;
         self.end = self.duration();
         let Self { mechanism, current, last_numbers, .. } = self;
         last_numbers.clear();
@@ -56,6 +60,39 @@ impl Simulation {
             }
             number
         }));
+    }
+
+    /// Estimates how far the times of events in the last step up to time t are off: by what quantities are off there, over their rates.
+    pub(super) fn judge_events(&mut self, t: f64) {
+        let Self { mechanism, integrator, companion, occurrences, judged_events, .. } = self;
+        while let Some(event) = occurrences.get_mut(*judged_events).filter(|event| event.time <= t) {
+            *judged_events += 1;
+            let functions = Arc::clone(&mechanism.system.event_functions);
+            let Some(function) = functions.iter().find(|function| function.name == event.name) else {
+                continue;
+            };
+            let (time, mut y) = (event.time, integrator.last().y.clone());
+            let mut error = vec![0.0; y.len()];
+            integrator.interpolate(mechanism, time, &mut y);
+            let known = match companion {
+                Some(companion) => {
+                    companion.compare(time, &y, integrator);
+                    companion.error(time, &y, &mut error)
+                }
+                None => integrator.error(&mechanism.system, time, &mut error),
+            };
+            if !known {
+                continue;
+            }
+            let mut quantity = |y: &[f64]| {
+                mechanism.set_state(time, y);
+                function.evaluate(&mechanism.state)[0]
+            };
+            let here = quantity(&y);
+            y.iter_mut().zip(&error).for_each(|(y, error)| *y -= error);
+            let off = (here - quantity(&y)).abs() / event.rate.abs();
+            event.error = Some(off.max(f64::EPSILON * time)).filter(|off| off.is_finite());
+        }
     }
 
     /// Finds the events of the last step.
@@ -166,6 +203,7 @@ fn find_at_end(
             occurrences.push(EventOccurrence {
                 name: function.name.clone(),
                 time: end,
+                error: None,
                 rate: *rate,
                 stop: function.stop,
             });
@@ -207,7 +245,8 @@ fn find_in_part(
         }
         let time = root((from, to, side), |t| evaluate(t, function));
         let rate = evaluate(time, function)[1];
-        occurrences.push(EventOccurrence { name: function.name.clone(), time, rate, stop: function.stop });
+        let (name, stop) = (function.name.clone(), function.stop);
+        occurrences.push(EventOccurrence { name, time, error: None, rate, stop });
     }
 }
 

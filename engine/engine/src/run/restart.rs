@@ -1,6 +1,7 @@
 //! Restarts of a run: at its start, from the state of another run, or backwards.
 
 use super::companion::Companion;
+use super::lent_inertia::LentInertia;
 use super::seen::Seen;
 use super::{Simulation, Snapshot, explain};
 use crate::error::EngineError;
@@ -111,6 +112,9 @@ impl Simulation {
         self.mechanism.projections = 0;
         self.counters = explain::RunCounters::default();
         (self.work, self.seen) = (0.0, Seen::new(time, y));
+        self.lent_inertia = LentInertia::of(&self.mechanism);
+        // What it refuses is refused after the next step.
+        let _ = self.lent_inertia.look(&mut self.mechanism, time, y);
         self.singularities.reset(&mut self.mechanism);
         self.before_branching = None;
         self.off_at_start.take();

@@ -17,14 +17,12 @@ pub(super) struct Seen {
     pub kinetic: f64,
     /// Largest work of drivers and of loads without potential since the start, J, at ends of steps.
     pub work: f64,
-    /// When bodies first moved together with next to no inertia, s, and which.
-    pub hardly_inert: Option<(f64, Vec<usize>)>,
 }
 
 impl Seen {
     /// Of a run that starts at (t, y).
     pub fn new(time: f64, y: &[f64]) -> Self {
-        Self { time, state: y.to_vec(), kinetic: 0.0, work: 0.0, hardly_inert: None }
+        Self { time, state: y.to_vec(), kinetic: 0.0, work: 0.0 }
     }
 
     /// Takes over a step, with the work up to its start.

@@ -2,6 +2,7 @@
 
 use super::companion::Companion;
 use super::examiner::Examiner;
+use super::lent_inertia::LentInertia;
 use super::notes::Notes;
 use super::seen::Seen;
 use super::singularity::SingularityMonitor;
@@ -86,10 +87,8 @@ impl Simulation {
         let state = &mechanism.state;
         let (current, start_energy) = (CachedState::new(0.0, &start, state), state.energy(&mechanism.system));
         check_loads(&mechanism)?;
-        let may_lose_balance = mechanism.may_lose_balance();
-        if may_lose_balance {
-            mechanism.check_balance(0.0, &start)?;
-        }
+        let mut lent_inertia = LentInertia::of(&mechanism);
+        lent_inertia.look(&mut mechanism, 0.0, &start)?;
         let (kind, reason) = integrate::choose(&mut mechanism, &start);
         let asked = mechanism.system.model.settings.integrator;
         if asked != IntegratorKind::Auto && asked != kind {
@@ -120,11 +119,12 @@ impl Simulation {
             start_energy,
             seen,
             conservative,
-            may_lose_balance,
+            lent_inertia,
             work: 0.0,
             scratch,
             step_limit: u64::MAX,
             occurrences: Vec::new(),
+            judged_events: 0,
             off_at_start: OnceLock::new(),
             last_numbers: Vec::new(),
             end,
@@ -141,12 +141,12 @@ impl Simulation {
 /// A mechanism, its start (q, q̇) moved onto the constraints, and what was found or corrected, as long as that is wanted.
 pub(crate) fn assemble(
     model: Model,
-    still: &dyn Fn() -> bool,
+    wanted: &dyn Fn() -> bool,
 ) -> Result<(Mechanism, Vec<f64>, Notes), ConstraintError> {
     let of_scene = model.notes.len();
-    let (mut mechanism, mut start) = start::mechanism_if(model, still);
+    let (mut mechanism, mut start) = start::mechanism_while(model, wanted);
     let mut notes = mechanism.system.model.notes.clone();
-    notes.extend(mechanism.assemble_if(&mut start, still)?);
+    notes.extend(mechanism.assemble_while(&mut start, wanted)?);
     Ok((mechanism, start, Notes::new(notes, of_scene)))
 }
 
@@ -156,11 +156,11 @@ pub(crate) fn analyze_rank(
     mechanism: &mut Mechanism,
     start: &[f64],
     notes: &mut Notes,
-    still: &dyn Fn() -> bool,
+    wanted: &dyn Fn() -> bool,
 ) -> Result<Rank, ConstraintError> {
     let Mechanism { system, state, elimination, .. } = mechanism;
     let q = &start[..system.coordinates];
-    let rank = rank::analyze_if(system, state, q, still);
+    let rank = rank::analyze_while(system, state, q, wanted);
     rank::check_masses(system, state, elimination, q)?;
     if rank.at_start < rank.rank {
         notes.add_of_start(format!(

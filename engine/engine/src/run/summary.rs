@@ -74,15 +74,13 @@ fn swallowed(system: &System) -> f64 {
 
 /// Kinetic energy below which a mechanism rests: of all its mass, moving by no more than the rounding of its length in the whole run, J.
 fn resting_energy(system: &System) -> f64 {
-    let mass: f64 = system.bodies.iter().map(|body| body.mass).sum();
     let speed = f64::EPSILON * system.length / system.model.settings.duration;
-    0.5 * mass * speed * speed
+    0.5 * system.model.mass() * speed * speed
 }
 
 /// Energy that the weight of a mechanism has over its length, J.
 fn weighing_energy(system: &System) -> f64 {
-    let mass: f64 = system.bodies.iter().map(|body| body.mass).sum();
-    mass * system.model.gravity.norm() * system.length
+    system.model.mass() * system.model.gravity.norm() * system.length
 }
 
 impl Simulation {
@@ -165,6 +163,22 @@ impl Simulation {
             || system.constraints.iter().any(|constraint| constraint.driver)
     }
 
+    /// The energy that a drift is measured by, J; `energies` is the sum of the sizes of all at the start and now.
+    fn energy_in_play(&self, [drift, work]: [f64; 2], energies: f64) -> f64 {
+        let system = &self.mechanism.system;
+        let start = self.start_energy.abs();
+        let series = self.kind == IntegratorKind::Taylor;
+        // A series is measured by what moves now, but what it loses is no more than its tolerance promises of what has moved before.
+        let promised = drift.abs() <= system.model.settings.tolerance * self.seen.kinetic;
+        let seen = if series && !promised { 0.0 } else { self.seen.kinetic };
+        let kinetic = seen.max(self.current.state(system).kinetic_energy(system)).max(resting_energy(system));
+        // A slow motion gives away what was worked on it without ever having much of it. A Taylor series passes singular positions: only
+        // what it has brought in or lost beside the whole of its energy speaks against it.
+        let moved = kinetic.max(self.seen.work).max(work.abs());
+        let moved = moved.max(if series { start } else { STANDING * start });
+        if self.moves() { moved } else { moved.max(energies).max(weighing_energy(system)) }
+    }
+
     /// What speaks against the current state.
     fn doubts(&self, singularities: &[SingularConfiguration], [drift, work]: [f64; 2]) -> Vec<String> {
         let mut doubts = self.branching();
@@ -172,22 +186,12 @@ impl Simulation {
             .extend(self.without_inertia().map(|cause| format!("{cause}; give them some about every axis")));
         let system = &self.mechanism.system;
         let current = self.current.state(system);
-        let start = self.start_energy.abs();
+        let energies = self.start_energy.abs() + current.energies(system).map(f64::abs).sum::<f64>();
+        let left = self.seen.beyond_rounding(drift, energies);
         let series = self.kind == IntegratorKind::Taylor;
-        // A series is measured by what moves now, but what it loses is no more than its tolerance promises of what has moved before.
-        let promised = drift.abs() <= system.model.settings.tolerance * self.seen.kinetic;
-        let seen = if series && !promised { 0.0 } else { self.seen.kinetic };
-        let size = seen.max(current.kinetic_energy(system)).max(resting_energy(system));
-        // A slow motion gives away what was worked on it without ever having much of it. A Taylor series passes singular positions: only
-        // what it has brought in or lost beside the whole of its energy speaks against it.
-        let size = size.max(self.seen.work).max(work.abs());
-        let size = if series { size.max(start) } else { size.max(STANDING * start) };
-        let energies = start + current.energies(system).map(f64::abs).sum::<f64>();
-        let size = if self.moves() { size } else { size.max(energies).max(weighing_energy(system)) };
-        let drift = self.seen.beyond_rounding(drift, energies);
         let signs = violation::Signs {
             passed: singularities.first().map(|passed| passed.time).filter(|_| !series),
-            drift: if drift == 0.0 { 0.0 } else { drift / size },
+            drift: if left == 0.0 { 0.0 } else { left / self.energy_in_play([drift, work], energies) },
             open: violation::relative(system, current),
             swallowed: swallowed(system),
         };

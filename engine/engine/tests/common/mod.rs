@@ -89,3 +89,34 @@ pub fn table(text: &str) -> (Vec<&str>, Vec<Vec<f64>>) {
     let rows = lines.map(|line| line.split(',').map(|x| x.parse().expect("a number")).collect()).collect();
     (names, rows)
 }
+
+/// Largest difference of all positions and directors between two runs at 20 times.
+pub fn difference(a: &Scene, b: &Scene) -> f64 {
+    difference_until(f64::INFINITY, a, b)
+}
+
+/// The same up to this time, s.
+pub fn difference_until(end: f64, a: &Scene, b: &Scene) -> f64 {
+    let [mut first, mut second] = [a, b].map(|scene| Simulation::new(scene).expect("it starts"));
+    let mut largest: f64 = 0.0;
+    for k in 1..=20 {
+        let t = f64::from(k) / 20.0 * a.simulation.duration.min(end);
+        for run in [&mut first, &mut second] {
+            run.advance_to(t).expect("it goes on");
+        }
+        for (x, y) in first.frame().bodies.iter().zip(&second.frame().bodies) {
+            for (x, y) in [(x.position, y.position), (x.u, y.u), (x.v, y.v), (x.w, y.w)] {
+                largest = largest.max(triad_linalg::largest_difference(&x, &y));
+            }
+        }
+    }
+    largest
+}
+
+/// Whether numbers are the expected ones, to a part of each.
+pub fn same(found: &[f64], expected: &[f64], relative: f64) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() <= relative * expected.abs(), "{found} instead of {expected}");
+    }
+}

@@ -3,6 +3,7 @@
 
 use crate::common::{problem, random_scene, start, table};
 use nalgebra::Vector3;
+use serde_json::json;
 use triad_engine::analysis::check::check;
 use triad_engine::catalogue;
 use triad_engine::equations::augmented::AugmentedSystem;
@@ -364,6 +365,79 @@ fn all_rows_and_the_solver_rows_mark_the_same() {
                 reaction.joint,
                 scene.name
             );
+        }
+    }
+}
+
+/// Errors are those of the numbers that are told: about a point far away a moment is off by what the force is off there.
+#[test]
+fn errors_of_reactions_are_those_of_the_convention() {
+    let far = 1000.0;
+    let run = |tolerance: f64| {
+        let scene = json!({
+            "name": "far", "bodies": [
+                {"name": "a", "mass": 1.3, "inertia": {"principal": [0.02, 0.05, 0.06]}, "center_of_mass": [0.1, 0.02, -0.3],
+                    "position": [far, 0, 0], "angular_velocity": [3, 1, 2]},
+                {"name": "b", "mass": 0.7, "inertia": {"principal": [0.02, 0.03, 0.04]}, "center_of_mass": [0.1, 0.02, -0.3],
+                    "position": [far, 0, -0.6]}],
+            "joints": [
+                {"name": "s", "type": "spherical", "body_i": "ground", "body_j": "a", "point": [far, 0, 0]},
+                {"name": "u", "type": "universal", "body_i": "a", "body_j": "b", "point": [far, 0, -0.6], "axes": [[1, 0, 0], [0, 1, 0]]}],
+            "simulation": {"duration": 2.5, "tolerance": tolerance}
+        });
+        let mut run = Simulation::new(&Scene::from_json(&scene.to_string()).unwrap()).unwrap();
+        run.advance_to(2.5).unwrap();
+        run
+    };
+    let (rough, exact) = (run(1e-4), run(1e-11));
+    for convention in [
+        Convention::default(),
+        Convention { about: MomentReference::WorldPoint([0.0; 3]), ..Convention::default() },
+        Convention { about: MomentReference::CenterOfMass, ..Convention::default() },
+        Convention { expressed_in: ExpressedIn::Body, ..Convention::default() },
+    ] {
+        let [a, b] = [&rough, &exact].map(|run| run.reactions(convention).unwrap().reactions);
+        let off = |of: fn(&Reaction) -> [ReactionComponent; 3]| {
+            let apart = |(a, b): (&Reaction, &Reaction)| {
+                Vector3::from_fn(|k, _| of(a)[k].value - of(b)[k].value).norm()
+            };
+            a.iter().zip(&b).map(apart).fold(0.0, f64::max)
+        };
+        let told = rough.reaction_errors_as_told(convention).unwrap().unwrap();
+        for (off, told) in [(off(|r| r.force), told.force), (off(|r| r.moment), told.moment)] {
+            assert!(off < 3.0 * told && told < 5.0 * off, "{convention:?}: {off:e}, told {told:e}");
+        }
+    }
+}
+
+/// Where the equations leave reactions open, the smallest are shown: the same however the scene is turned, and nothing across a plane.
+#[test]
+fn the_smallest_reactions_do_not_depend_on_how_a_scene_lies_in_the_world() {
+    let turned = |angle: f64| {
+        let turn = nalgebra::Rotation3::from_axis_angle(&Vector3::x_axis(), angle);
+        let at = |x: f64, y: f64, z: f64| -> [f64; 3] { (turn * Vector3::new(x, y, z)).into() };
+        let rod = |name: &str, from: [f64; 2], to: [f64; 2]| {
+            json!({"name": name, "mass": 1.2, "inertia": {"principal": [0.02, 0.1, 0.11]},
+                "position": at(0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1]), 0.0),
+                "orientation": {"axis": [1, 0, 0], "angle": angle}})
+        };
+        let points = [[0.0, 0.0], [0.3, 1.0], [2.1, 1.6], [2.5, 0.0]];
+        let hinge = |name: &str, i: &str, j: &str, [x, y]: [f64; 2]| json!({"name": name, "type": "revolute", "body_i": i, "body_j": j, "point": at(x, y, 0.0), "axis": at(0.0, 0.0, 1.0)});
+        let scene = json!({
+            "name": "turned", "gravity": at(0.0, -9.81, 0.0),
+            "bodies": [rod("a", points[0], points[1]), rod("b", points[1], points[2]), rod("c", points[2], points[3])],
+            "joints": [hinge("A", "ground", "a", points[0]), hinge("B", "a", "b", points[1]),
+                hinge("C", "b", "c", points[2]), hinge("D", "c", "ground", points[3])]
+        });
+        let run = Simulation::new(&Scene::from_json(&scene.to_string()).unwrap()).unwrap();
+        run.reactions(Convention { expressed_in: ExpressedIn::Joint, ..Convention::default() }).unwrap()
+    };
+    for angle in [0.0, 0.5, 1.3, 2.9] {
+        for reaction in turned(angle).reactions {
+            // x is the axis of the hinge, across the plane.
+            let [axial, ..] = reaction.force.map(|component| component.value);
+            let [_, y, z] = reaction.moment.map(|component| component.value);
+            assert!(axial.abs() < 1e-9 && y.abs() < 1e-9 && z.abs() < 1e-9, "{angle}: {reaction:?}");
         }
     }
 }

@@ -3,10 +3,10 @@
 
 use nalgebra::{Matrix2, Vector3};
 use serde_json::json;
-use triad_engine::analysis::check::{check, check_if};
+use triad_engine::analysis::check::{check, check_while};
 use triad_engine::analysis::{
-    AnalysisError, ModesAbout, Wanted, assemble_if, equilibrium, equilibrium_if, kinematics, kinematics_if,
-    modes, modes_if,
+    AnalysisError, ModesAbout, Wanted, assemble_while, equilibrium, equilibrium_while, kinematics,
+    kinematics_while, modes, modes_while,
 };
 use triad_engine::catalogue;
 use triad_engine::reactions::report::{Convention, ExpressedIn};
@@ -42,20 +42,20 @@ fn what_nobody_waits_for_any_more_ends_before_its_next_step() {
     let (pendulum, driven) =
         ["simple-pendulum", "crank-rocker"].map(|name| catalogue::scene(name).unwrap()).into();
     let wanted = Wanted::default();
-    assert!(equilibrium_if(&pendulum, &wanted).is_ok());
+    assert!(equilibrium_while(&pendulum, &wanted).is_ok());
     // A crank that is told to stand elsewhere than its coupler takes it up again.
     let mut open = driven.clone();
     open.bodies[0].position[1] += 0.05;
-    assert!(assemble_if(&open, &[], &wanted).unwrap().iterations > 0);
-    assert_eq!(check_if(&open, &wanted).unwrap(), check(&open).unwrap());
+    assert!(assemble_while(&open, &[], &wanted).unwrap().iterations > 0);
+    assert_eq!(check_while(&open, &wanted).unwrap(), check(&open).unwrap());
     wanted.no_longer();
     let ended = [
-        equilibrium_if(&pendulum, &wanted).unwrap_err(),
-        modes_if(&pendulum, ModesAbout::Equilibrium, &wanted).unwrap_err(),
-        modes_if(&pendulum, ModesAbout::Steady, &wanted).unwrap_err(),
-        kinematics_if(&driven, Convention::default(), &wanted).unwrap_err(),
-        assemble_if(&open, &[], &wanted).unwrap_err(),
-        check_if(&open, &wanted).unwrap_err(),
+        equilibrium_while(&pendulum, &wanted).unwrap_err(),
+        modes_while(&pendulum, ModesAbout::Equilibrium, &wanted).unwrap_err(),
+        modes_while(&pendulum, ModesAbout::Steady, &wanted).unwrap_err(),
+        kinematics_while(&driven, Convention::default(), &wanted).unwrap_err(),
+        assemble_while(&open, &[], &wanted).unwrap_err(),
+        check_while(&open, &wanted).unwrap_err(),
     ];
     assert!(ended.iter().all(|error| *error == AnalysisError::NoLongerWanted), "{ended:?}");
 }
@@ -400,4 +400,122 @@ fn an_equilibrium_that_rounding_of_a_stiff_spring_hides_is_told() {
         let (found, told) = sag(stiffness);
         assert!((found - 1.0).abs() < 1e-6 || told, "{stiffness:e}: {found}");
     }
+}
+
+/// A position of rest knows nothing of how drivers go on: what they accelerate at the start is no load of it.
+#[test]
+fn drivers_that_accelerate_at_the_start_are_at_rest_in_equilibrium_and_modes() {
+    let scene = |amplitude: f64| {
+        let scene = json!({
+            "name": "shaker", "bodies": [
+                {"name": "table", "mass": 1, "inertia": {"principal": [0.1, 0.12, 0.2]}},
+                {"name": "bob", "mass": 1, "position": [0, 0, -1]}],
+            "joints": [
+                {"name": "guide", "type": "prismatic", "body_i": "ground", "body_j": "table", "point": [0, 0, 0], "axis": [0, 0, 1]},
+                {"name": "pin", "type": "revolute", "body_i": "table", "body_j": "bob", "point": [0, 0, 0], "axis": [0, 1, 0]}],
+            "drivers": [{"name": "shake", "type": "slide", "joint": "guide",
+                "motion": {"kind": "expression", "value": format!("{amplitude}*(cos(5*t)-1)")}}]
+        });
+        Scene::from_json(&scene.to_string()).unwrap()
+    };
+    for amplitude in [0.0, 0.2, 0.5] {
+        let found = equilibrium(&scene(amplitude)).unwrap();
+        let force = |name: &str| {
+            let reaction = found.reactions.reactions.iter().find(|reaction| reaction.joint == name).unwrap();
+            reaction.force[2].value
+        };
+        assert!((force("pin") - 9.81).abs() < 1e-9 && (force("shake") - 19.62).abs() < 1e-9, "{amplitude}");
+        assert_eq!(found.stable, Some(true));
+        for about in [ModesAbout::Equilibrium, ModesAbout::Start] {
+            let found = modes(&scene(amplitude), about).unwrap();
+            let exact = libm::sqrt(9.81) / std::f64::consts::TAU;
+            assert!((found.modes[0].frequency - exact).abs() < 1e-7, "{amplitude}: {:?}", found.modes[0]);
+        }
+    }
+}
+
+/// A position of rest is told with how far it may be off: most where its stiffness is least.
+#[test]
+fn the_error_of_an_equilibrium_is_told() {
+    // A pendulum with a torsion spring that its weight all but cancels: k − m g l.
+    for part in [1.0, 0.5, 1e-3, 0.0] {
+        let scene = json!({
+            "name": "upright", "gravity": [0, 0, -9.81],
+            "bodies": [{"name": "a", "mass": 1, "position": [0, 0, 0.5], "inertia": {"principal": [0.1, 0.1, 0.1]}}],
+            "joints": [{"name": "pin", "type": "revolute", "body_i": "ground", "body_j": "a", "point": [0, 0, 0], "axis": [0, 1, 0],
+                "start": {"angle": 0.3}}],
+            "loads": [{"name": "spring", "type": "torsion", "joint": "pin", "stiffness": 9.81 * 0.5 * (1.0 + part)}]
+        });
+        let found = equilibrium(&Scene::from_json(&scene.to_string()).unwrap()).unwrap();
+        let [x, y, z] = found.bodies[0].position;
+        let off = Vector3::new(x, y, z - 0.5).norm();
+        match found.error {
+            Some(error) => assert!(off < 10.0 * error, "{part}: {off:e}, told {error:e}"),
+            None => assert_eq!((part, found.stable), (0.0, None)),
+        }
+    }
+}
+
+/// Two branches of a parallelogram meet where it is flat: the linear equations there are told to be those of no single one.
+#[test]
+fn modes_at_a_singular_position_say_so() {
+    let rod = |name: &str, at: [f64; 3], axis: usize| {
+        let mut moments = [0.1; 3];
+        moments[axis] = 0.01;
+        json!({"name": name, "mass": 1, "position": at, "inertia": {"principal": moments}})
+    };
+    let hinge = |name: &str, i: &str, j: &str, at: [f64; 3]| json!({"name": name, "type": "revolute", "body_i": i, "body_j": j, "point": at, "axis": [0, 0, 1]});
+    let scene = |width: f64| {
+        let scene = json!({
+            "name": "flat", "gravity": [9.81, 0, 0],
+            "bodies": [rod("a", [0.5, 0.0, 0.0], 0), rod("b", [1.0, 0.5 * width, 0.0], 0), rod("c", [0.5, width, 0.0], 0)],
+            "joints": [hinge("A", "ground", "a", [0.0; 3]), hinge("B", "a", "b", [1.0, 0.0, 0.0]),
+                hinge("C", "b", "c", [1.0, width, 0.0]), hinge("D", "c", "ground", [0.0, width, 0.0])]
+        });
+        Scene::from_json(&scene.to_string()).unwrap()
+    };
+    let told = |scene: &Scene| {
+        let found = modes(scene, ModesAbout::Start).unwrap();
+        (
+            found.freedoms,
+            found.notes.iter().any(|note| note.starts_with("the position is singular: 1 rows lose")),
+        )
+    };
+    assert_eq!(told(&scene(0.5)), (1, false));
+    // All hinges on one line.
+    let mut flat: serde_json::Value = serde_json::from_str(&scene(0.5).to_json()).unwrap();
+    for (body, x) in [("0", 0.5), ("1", 1.25), ("2", 1.0)] {
+        flat["bodies"][body.parse::<usize>().unwrap()]["position"] = json!([x, 0, 0]);
+    }
+    for (joint, x) in [(0, 0.0), (1, 1.0), (2, 1.5), (3, 0.5)] {
+        flat["joints"][joint]["point"] = json!([x, 0, 0]);
+    }
+    assert_eq!(told(&Scene::from_json(&flat.to_string()).unwrap()), (2, true));
+}
+
+/// A parallelogram that is let go comes to rest where it is flat, where the other branch begins.
+#[test]
+fn an_equilibrium_in_a_singular_position_is_found() {
+    let (sine, cosine) = libm::sincos(0.3);
+    let link = |name: &str, position: [f64; 3], angle: f64| {
+        json!({"name": name, "mass": 1, "inertia": {"principal": [0.001, 0.02, 0.02]}, "center_of_mass": [0.5, 0, 0],
+            "orientation": {"axis": [0, 0, 1], "angle": angle}, "position": position})
+    };
+    let hinge = |name: &str, i: &str, j: &str, at: [f64; 3], on: [f64; 3]| {
+        json!({"name": name, "type": "revolute", "body_i": i, "body_j": j, "point_i": at, "point_j": on,
+            "axis_i": [0, 0, 1], "axis_j": [0, 0, 1]})
+    };
+    let scene = json!({
+        "name": "flat", "gravity": [9.81, 0, 0],
+        "bodies": [link("a", [0.0; 3], 0.3), link("b", [1.0, 0.0, 0.0], 0.3), link("c", [cosine, sine, 0.0], 0.0)],
+        "joints": [hinge("O", "ground", "a", [0.0; 3], [0.0; 3]), hinge("Q", "ground", "b", [1.0, 0.0, 0.0], [0.0; 3]),
+            hinge("A", "a", "c", [1.0, 0.0, 0.0], [0.0; 3]), hinge("B", "b", "c", [1.0, 0.0, 0.0], [1.0, 0.0, 0.0])]
+    });
+    let found = equilibrium(&Scene::from_json(&scene.to_string()).unwrap()).unwrap();
+    let off = found.bodies[..2].iter().map(|body| body.u[1].abs()).fold(0.0, f64::max);
+    assert!(
+        off < 1e-5 && found.error.is_some_and(|error| off < 10.0 * error),
+        "{off:e}, told {:?}",
+        found.error
+    );
 }

@@ -266,3 +266,28 @@ fn a_driver_that_begins_half_a_turn_from_the_bodies_is_refused() {
         assert!(refused.to_string().contains("driver \"motor\""), "{refused}");
     }
 }
+
+/// The reference of an angle is a direction: its length does not matter, and one that changes is refused.
+#[test]
+fn a_direction_that_is_followed_is_made_a_unit_vector_or_refused() {
+    let scene = |reference: Value| {
+        let scene = json!({
+            "name": "hand", "bodies": [{"name": "c", "mass": 1, "inertia": {"principal": [0.02, 0.03, 0.035]}}],
+            "joints": [{"name": "h", "type": "revolute", "body_i": "ground", "body_j": "c", "point": [0, 0, 0], "axis": [0, 0, 1]}],
+            "drivers": [{"name": "a", "type": "angle-to-world", "body": "c", "vector": [1, 0, 0], "reference": reference,
+                "motion": {"kind": "ramp", "start": std::f64::consts::FRAC_PI_4, "rate": 0.2}}]
+        });
+        Scene::from_json(&scene.to_string()).unwrap()
+    };
+    for length in [1.0, 3.0, 0.5] {
+        let mut run = Simulation::new(&scene(json!([length, length, 0]))).unwrap();
+        run.advance_to(1.0).unwrap();
+        let [x, y, _] = run.frame().bodies[0].u;
+        assert!((libm::atan2(y, x) + 0.2).abs() < 1e-9, "{length}: {x}, {y}");
+    }
+    let growing =
+        json!({"kind": "components", "x": {"kind": "ramp", "start": 1, "rate": 0.1}, "y": 0, "z": 0});
+    let error = Simulation::new(&scene(growing)).unwrap_err();
+    assert_eq!((error.code(), error.pointer().as_deref()), ("driver-invalid", Some("/drivers/0/reference")));
+    assert!(error.hint().contains("Divide"), "{}", error.hint());
+}

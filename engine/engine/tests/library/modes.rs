@@ -7,6 +7,7 @@
     reason = "tests may panic, and write numbers as they were computed elsewhere"
 )]
 
+use crate::common::same;
 use serde_json::json;
 use std::f64::consts::TAU;
 use triad_engine::analysis::{Modes, ModesAbout, modes};
@@ -24,13 +25,6 @@ fn problem(name: &str) -> Modes {
 /// ω of those that oscillate.
 fn frequencies(found: &Modes) -> Vec<f64> {
     found.modes.iter().filter(|mode| mode.kind == "oscillates").map(|mode| TAU * mode.frequency).collect()
-}
-
-fn same(found: &[f64], expected: &[f64], relative: f64) {
-    assert_eq!(found.len(), expected.len(), "{found:?}");
-    for (found, expected) in found.iter().zip(expected) {
-        assert!((found - expected).abs() <= relative * expected.abs(), "{found} instead of {expected}");
-    }
 }
 
 const G: f64 = 9.81;

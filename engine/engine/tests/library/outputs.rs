@@ -3,6 +3,7 @@
 #![allow(clippy::panic, reason = "tests may panic, and write numbers as they were computed elsewhere")]
 #![allow(clippy::unwrap_used)] // a test that cannot go on says so
 
+use serde_json::json;
 use triad_engine::prelude::*;
 use triad_engine::run::{Moment, Outputs, RowWriter};
 use triad_engine::scene::{Output, OutputKind, OutputTimes};
@@ -153,7 +154,7 @@ fn one_element_is_chosen_by_its_name() {
     scene.simulation.outputs = vec!["reactions:pim".parse().unwrap()];
     let error = Simulation::new(&scene).unwrap_err();
     assert_eq!((error.code(), error.pointer().as_deref()), ("output-invalid", Some("/simulation/outputs/0")));
-    assert!(error.to_string().contains("did you mean \"pin\""), "{error}");
+    assert_eq!(error.hint(), "Did you mean \"pin\"?", "{error}");
 }
 
 /// The columns cannot mark which reactions the equations leave open: what stands before them says that some are.
@@ -201,4 +202,58 @@ fn rounding_neither_doubles_the_last_time_nor_leaves_it_out() {
     // Longer than the run, and no interval at all, which is refused elsewhere.
     assert_eq!([0, 1, 2].map(|index| OutputTimes::new(1e9, 1.0).at(index)), [0.0, 1.0, 1.0]);
     assert_eq!(OutputTimes::new(0.0, 1.0).intervals(), 1.0);
+}
+
+/// A marker far from its body's centre of mass moves farther than that: its error counts.
+#[test]
+fn the_error_of_a_marker_far_out_is_told() {
+    let scene = |tolerance: f64, marked: bool| {
+        let markers =
+            if marked { json!([{"name": "tip", "body": "A", "point": [0, 20, 5]}]) } else { json!([]) };
+        let scene = json!({
+            "name": "flag", "bodies": [{"name": "A", "mass": 2, "inertia": {"principal": [0.1, 0.2, 0.25]},
+                "center_of_mass": [0.05, 0, 0], "angular_velocity": [1, 4, 2]}],
+            "joints": [{"name": "ball", "type": "spherical", "body_i": "ground", "body_j": "A", "point": [0, 0, 0]}],
+            "markers": markers, "simulation": {"duration": 2, "tolerance": tolerance}
+        });
+        let mut run = Simulation::new(&Scene::from_json(&scene.to_string()).unwrap()).unwrap();
+        run.advance_to(2.0).unwrap();
+        run
+    };
+    let (rough, exact) = (scene(1e-4, true), scene(1e-12, true));
+    let [a, b] = [&rough, &exact].map(|run| run.frame().markers[0].position);
+    let off = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+    let told = rough.error_estimate().unwrap().position;
+    let of_center = scene(1e-4, false).error_estimate().unwrap().position;
+    assert!(
+        off < 3.0 * told && told < 3.0 * off && told > 20.0 * of_center,
+        "{off:e}, {told:e}, {of_center:e}"
+    );
+}
+
+/// A marker that has the name of its body, and a load that has that of its joint, have columns of their own.
+#[test]
+fn columns_of_elements_with_one_name_are_told_apart() {
+    let scene = json!({
+        "name": "names", "bodies": [{"name": "a", "mass": 1, "inertia": {"principal": [0.1, 0.1, 0.1]}}],
+        "joints": [{"name": "rail", "type": "prismatic", "body_i": "ground", "body_j": "a", "point": [0, 0, 0], "axis": [1, 0, 0]}],
+        "loads": [{"name": "rail", "type": "slider", "joint": "rail", "stiffness": 3}],
+        "markers": [{"name": "a", "body": "a", "point": [0, 1, 0]}],
+        "simulation": {"outputs": ["frames", "joints", "loads", "markers"]}
+    });
+    let outputs = |words: &[&str]| -> Vec<String> {
+        let mut scene = Scene::from_json(&scene.to_string()).unwrap();
+        scene.simulation.outputs = words.iter().map(|word| word.parse().unwrap()).collect();
+        let outputs = Outputs::new(&Simulation::new(&scene).unwrap());
+        outputs.columns().iter().map(|column| column.name.clone()).collect()
+    };
+    let all = outputs(&["frames", "joints", "loads", "markers"]);
+    let mut apart = all.clone();
+    apart.sort();
+    apart.dedup();
+    assert_eq!(apart.len(), all.len(), "{all:?}");
+    for name in ["a.px", "marker:a.px", "rail.slide", "load:rail.slide"] {
+        assert!(all.iter().any(|column| column == name), "{all:?}");
+    }
+    assert_eq!(outputs(&["markers"])[0], "a.px", "alone they keep their name");
 }

@@ -78,8 +78,8 @@ fn a_marker_of_no_body_and_an_event_of_no_marker_are_refused() {
     let mut wrong = tumbling("full");
     wrong.markers[0].name = "corne".to_owned();
     let error = Simulation::new(&wrong).unwrap_err();
-    assert!(error.to_string().contains("did you mean \"corne\"?"), "{error}");
-    assert_eq!(error.pointer().as_deref(), Some("/events/0/of/marker"));
+    assert_eq!(error.hint(), "Did you mean \"corne\"?", "{error}");
+    assert_eq!((error.code(), error.pointer().as_deref()), ("unknown-marker", Some("/events/0/of/marker")));
 }
 
 /// A plain number is a constant motion, three plain numbers a constant vector.

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "tests may panic")]
 
+use crate::common::same;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -35,13 +36,6 @@ fn frequencies(found: &Modes) -> Vec<f64> {
 
 fn drifts(found: &Modes) -> usize {
     found.modes.iter().filter(|mode| mode.kind == "drifts").count()
-}
-
-fn same(found: &[f64], expected: &[f64], relative: f64) {
-    assert_eq!(found.len(), expected.len(), "{found:?}");
-    for (found, expected) in found.iter().zip(expected) {
-        assert!((found - expected).abs() <= relative * expected.abs(), "{found} instead of {expected}");
-    }
 }
 
 /// A top without an axis of symmetry, upright at the speed Ω, with the moments A, B, C about its tip:

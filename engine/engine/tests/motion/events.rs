@@ -194,3 +194,29 @@ fn an_event_without_its_joint_is_refused() {
     let error = Simulation::new(&Scene::from_json(&scene.to_string()).unwrap()).unwrap_err().to_string();
     assert!(error.contains("nowhere"), "{error}");
 }
+
+/// The times of events are told with an error: within three times of what they are off, by a method that is far off.
+#[test]
+fn the_error_of_the_time_of_an_event_is_told() {
+    let period = 2.367_841_947_576_237_4;
+    let low = json!([{ "name": "lowest", "of": { "type": "coordinate", "body": "bob", "direction": [1, 0, 0] }, "value": 0 }]);
+    for (integrator, tolerance, every) in
+        [("dopri5", 1e-4, 0.05), ("dop853", 1e-5, 3.0), ("taylor", 1e-4, 0.7)]
+    {
+        let mut scene = built_in("simple-pendulum");
+        scene["events"] = low.clone();
+        scene["simulation"]["integrator"] = integrator.into();
+        scene["simulation"]["tolerance"] = json!(tolerance);
+        let mut run = Simulation::new(&Scene::from_json(&scene.to_string()).unwrap()).unwrap();
+        while run.time() < 9.0 {
+            run.advance_to(run.time() + every).unwrap();
+        }
+        let events = run.events();
+        assert!(events.len() >= 7, "{integrator}: {events:?}");
+        for (k, event) in events.iter().enumerate() {
+            let off = (event.time - (0.25 + 0.5 * k as f64) * period).abs();
+            let told = event.error.unwrap();
+            assert!(off < 3.0 * told && told < 3.0 * off + 1e-6, "{integrator}, {k}: {off:e}, told {told:e}");
+        }
+    }
+}

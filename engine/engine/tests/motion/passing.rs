@@ -78,3 +78,69 @@ fn a_spring_that_is_passed_closely_keeps_its_energy() {
         }
     }
 }
+
+/// A mass on a spring and a damper whose points coincide at the start, where neither has a direction: m x″ = −m g − c x′ − k x.
+#[test]
+fn points_that_coincide_at_the_start_part_along_their_way() {
+    let (mass, g) = (1.5f64, 9.81);
+    for (stiffness, damping) in [(100.0f64, 5.0), (0.0, 5.0)] {
+        let half = 0.5 * damping / mass;
+        let speed = libm::sqrt((stiffness / mass - half * half).max(0.0));
+        let exact = |t: f64| {
+            if stiffness == 0.0 {
+                return -mass * g / damping * (t - (1.0 - libm::exp(-2.0 * half * t)) / (2.0 * half));
+            }
+            let (sine, cosine) = libm::sincos(speed * t);
+            -mass * g / stiffness * (1.0 - libm::exp(-half * t) * (cosine + half / speed * sine))
+        };
+        for (beside, kind) in
+            [0.0, 1e-6].into_iter().flat_map(|beside| WAYS[..3].iter().map(move |kind| (beside, *kind)))
+        {
+            let scene = json!({
+                "name": "hanging", "gravity": [0, 0, -g],
+                "bodies": [{"name": "A", "mass": mass, "inertia": {"principal": [0.1, 0.2, 0.25]}, "position": [0, 0, beside]}],
+                "loads": [{"type": "spring", "name": "S", "body_i": "ground", "point_i": [0, 0, 0], "body_j": "A",
+                    "point_j": [0, 0, 0], "stiffness": stiffness, "damping": damping}],
+                "simulation": {"duration": 1}
+            });
+            let scene = Scene::from_json(&scene.to_string()).unwrap();
+            let mut run = Simulation::new(&scene.integrator(kind).tolerance(1e-9)).unwrap();
+            for t in [0.1, 0.3, 1.0] {
+                run.advance_to(t).unwrap();
+                let off = (run.frame().bodies[0].position[2] - exact(t)).abs();
+                let told = run.error_estimate().unwrap().position;
+                assert!(
+                    off < 10.0 * told + 2.0 * beside + 1e-11,
+                    "{kind}, {stiffness}, {t} s: {off:e}, told {told:e}"
+                );
+                assert!(off < 3e-9 + 2.0 * beside, "{kind}, {stiffness}, {beside:e}, {t} s: {off:e}");
+            }
+        }
+    }
+}
+
+/// The same where they part along an arc, which no closed form tells: by the series as by radau.
+#[test]
+fn points_that_coincide_at_the_start_part_along_an_arc() {
+    let scene = json!({
+        "name": "arm", "gravity": [0, 0, -9.81],
+        "bodies": [{"name": "A", "mass": 1, "inertia": {"principal": [0.1, 0.12, 0.2]}, "center_of_mass": [0.5, 0, 0]}],
+        "joints": [{"name": "h", "type": "revolute", "body_i": "ground", "body_j": "A", "point": [0, 0, 0], "axis": [0, 1, 0]}],
+        "loads": [{"type": "spring", "name": "S", "body_i": "ground", "point_i": [1, 0, 0], "body_j": "A", "point_j": [1, 0, 0],
+            "stiffness": 0, "damping": 1, "free_length": 0}],
+        "simulation": {"duration": 2}
+    });
+    let scene = Scene::from_json(&scene.to_string()).unwrap();
+    let run =
+        |kind, tolerance| Simulation::new(&scene.clone().integrator(kind).tolerance(tolerance)).unwrap();
+    let (mut series, mut radau) = (run(IntegratorKind::Taylor, 1e-9), run(IntegratorKind::Radau, 1e-11));
+    for k in 1..=20 {
+        let t = 0.1 * f64::from(k);
+        series.advance_to(t).unwrap();
+        radau.advance_to(t).unwrap();
+        let [a, b] = [&series, &radau].map(|run| run.frame().bodies[0].position);
+        let off = triad_linalg::largest_difference(&a, &b);
+        let told = series.error_estimate().unwrap().position;
+        assert!(off < 1e-8 && off < 10.0 * told + 1e-10, "{t} s: {off:e}, told {told:e}");
+    }
+}

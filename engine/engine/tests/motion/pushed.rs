@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use crate::common::difference;
 use serde_json::json;
 use triad_engine::run::Simulation;
 use triad_engine::scene::{IntegratorKind, Scene};
@@ -113,23 +114,6 @@ fn mechanisms_at_rest_follow_torques_that_begin_like_a_square() {
             assert!(off < 1e2 * tolerance, "{}, {tolerance:e}: {off:e}", exact.name);
         }
     }
-}
-
-/// Largest difference of centres of mass between two runs at 20 times.
-fn difference(a: &Scene, b: &Scene) -> f64 {
-    let (mut first, mut second) = (Simulation::new(a).unwrap(), Simulation::new(b).unwrap());
-    let mut largest: f64 = 0.0;
-    for k in 1..=20 {
-        let t = f64::from(k) / 20.0 * a.simulation.duration;
-        first.advance_to(t).unwrap();
-        second.advance_to(t).unwrap();
-        for (x, y) in first.frame().bodies.iter().zip(&second.frame().bodies) {
-            for c in 0..3 {
-                largest = largest.max((x.position[c] - y.position[c]).abs());
-            }
-        }
-    }
-    largest
 }
 
 /// What a driver or a force does to masses that are shaken along a line is known wherever a table has a row, though the motion has far fewer

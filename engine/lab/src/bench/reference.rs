@@ -2,7 +2,7 @@
 
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
-use triad_scene::{ConstraintMethod, IntegratorKind, Scene};
+use triad_scene::{IntegratorKind, Scene};
 
 use super::plan::{BenchCase, Truth};
 
@@ -71,11 +71,8 @@ pub fn reference(case: &BenchCase, scene: &Scene) -> Result<Reference, EngineErr
         Truth::Converged => {
             let mut tight = scene.clone();
             let settings = &mut tight.simulation;
-            // Whatever the scene asks for itself: rigid joints, and steps that its tolerance makes.
-            settings.constraint_method = ConstraintMethod::Projection;
-            settings.step = None;
+            settings.compare_by(IntegratorKind::Auto, settings.tolerance);
             settings.error_estimate = true;
-            settings.integrator = IntegratorKind::Auto;
             let stiff = Simulation::new(&tight)?.summary().integrator == IntegratorKind::Radau;
             (tight.simulation.integrator, tight.simulation.tolerance) =
                 if stiff { (IntegratorKind::Radau, 1e-12) } else { (IntegratorKind::Dop853, 1e-13) };

@@ -3,6 +3,7 @@
 use super::case::{StressOutcome, StressVerdict, TrialMethod};
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
+use triad_linalg::larger_or_nan;
 use triad_scene::Scene;
 
 /// Steps that a run is given unless it asks for more.
@@ -116,13 +117,13 @@ impl<'a> Trial<'a> {
                 break;
             }
             if let Some(measure) = &mut self.measure {
-                outcome.error = Some(larger(outcome.error.unwrap_or(0.0), measure(&simulation)));
+                outcome.error = Some(larger_or_nan(outcome.error.unwrap_or(0.0), measure(&simulation)));
             }
             let summary = simulation.summary();
-            drift = larger(drift, summary.energy_drift.abs());
+            drift = larger_or_nan(drift, summary.energy_drift.abs());
             kinetic = kinetic.max(kinetic_energy(&simulation));
             let open = simulation.violation().relative;
-            outcome.violation = Some(larger(outcome.violation.unwrap_or(0.0), open));
+            outcome.violation = Some(larger_or_nan(outcome.violation.unwrap_or(0.0), open));
         }
         let summary = simulation.summary();
         outcome.steps = summary.steps;
@@ -222,9 +223,4 @@ pub fn kinetic_energy(simulation: &Simulation) -> f64 {
         sum += 0.5 * (body.mass * dot(&shown.velocity, &shown.velocity) + turning);
     }
     sum
-}
-
-/// The larger of two numbers; NaN is larger than any.
-pub fn larger(a: f64, b: f64) -> f64 {
-    if a > b || a.is_nan() { a } else { b }
 }

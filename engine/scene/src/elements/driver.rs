@@ -74,7 +74,7 @@ pub enum Driver {
         body: String,
         /// Vector in the body's frame; made a unit vector.
         vector: Triple,
-        /// Vector of the world.
+        /// Vector of the world; one that is fixed or turns is made a unit vector.
         reference: VectorMotion,
         /// The angle, rad.
         motion: Motion,

@@ -105,7 +105,7 @@ impl SceneDescription {
             })
             .collect();
         let Extent { size, center, reach } = Extent::of(model, &bodies);
-        let weight: f64 = model.bodies.iter().map(|body| body.mass).sum::<f64>() * model.gravity.norm();
+        let weight: f64 = model.mass() * model.gravity.norm();
         let title = if scene.title.is_empty() { &scene.name } else { &scene.title };
         Self {
             title: title.clone(),

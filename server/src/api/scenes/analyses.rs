@@ -62,7 +62,7 @@ async fn assembly(
     State(app): State<App>,
     Json(asked): Json<AnalysisRequest>,
 ) -> Result<axum::Json<Value>, Problem> {
-    analyse(app, asked, |scene, asked, wanted| analysis::assemble_if(scene, &asked.pinned, wanted)).await
+    analyse(app, asked, |scene, asked, wanted| analysis::assemble_while(scene, &asked.pinned, wanted)).await
 }
 
 /// Positions, velocities, accelerations and driving forces of a scene whose drivers leave it no freedom.
@@ -74,7 +74,7 @@ async fn kinematics(
     State(app): State<App>,
     Json(asked): Json<AnalysisRequest>,
 ) -> Result<axum::Json<Value>, Problem> {
-    analyse(app, asked, |scene, _, wanted| analysis::kinematics_if(scene, Convention::default(), wanted))
+    analyse(app, asked, |scene, _, wanted| analysis::kinematics_while(scene, Convention::default(), wanted))
         .await
 }
 
@@ -86,7 +86,7 @@ async fn equilibrium(
     State(app): State<App>,
     Json(asked): Json<AnalysisRequest>,
 ) -> Result<axum::Json<Value>, Problem> {
-    analyse(app, asked, |scene, _, wanted| analysis::equilibrium_if(scene, wanted)).await
+    analyse(app, asked, |scene, _, wanted| analysis::equilibrium_while(scene, wanted)).await
 }
 
 /// Small motions about a position: frequencies, damping and shapes.
@@ -97,7 +97,7 @@ async fn modes(
     State(app): State<App>,
     Json(asked): Json<AnalysisRequest>,
 ) -> Result<axum::Json<Value>, Problem> {
-    analyse(app, asked, |scene, asked, wanted| analysis::modes_if(scene, asked.about, wanted)).await
+    analyse(app, asked, |scene, asked, wanted| analysis::modes_while(scene, asked.about, wanted)).await
 }
 
 async fn analyse<T: Serialize>(

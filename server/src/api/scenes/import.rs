@@ -56,7 +56,7 @@ async fn import(
 ) -> Result<axum::Json<ImportedRobot>, Problem> {
     let work = Arc::clone(&app.work);
     let job = move |wanted: &Wanted| {
-        let imported = triad_urdf::import_if(&robot.urdf, &robot.with, &|| wanted.is_still())?;
+        let imported = triad_urdf::import_while(&robot.urdf, &robot.with, &|| wanted.is_still())?;
         session::bounded(&imported.scene, &app.limits)?;
         let scene = serde_json::to_value(&imported.scene).map_err(Problem::internal)?;
         Ok(axum::Json(ImportedRobot { scene, left_out: imported.left_out }))

@@ -13,7 +13,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use triad_engine::analysis::Wanted;
-use triad_engine::analysis::check::{CheckReport, check_if};
+use triad_engine::analysis::check::{CheckReport, check_while};
 use triad_engine::catalogue;
 use triad_engine::scene::{self, Scene};
 use utoipa_axum::router::OpenApiRouter;
@@ -80,7 +80,7 @@ async fn check(State(app): State<App>, Json(value): Json<Value>) -> Result<Answe
     let job = move |wanted: &Wanted| {
         let scene = Scene::from_json(&value.to_string())?;
         session::bounded(&scene, &app.limits)?;
-        Ok(Answer(check_if(&scene, wanted)?))
+        Ok(Answer(check_while(&scene, wanted)?))
     };
     work.run(job).await
 }

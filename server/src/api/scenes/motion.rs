@@ -22,7 +22,6 @@ use crate::motion::{self, Motion};
 use crate::page::reads_gzip;
 use crate::problem::Problem;
 use crate::scenes;
-use crate::work::still;
 
 /// A browser asks anew after so many seconds: lessons may be edited while the server runs.
 const FRESH: &str = "public, max-age=300";
@@ -95,7 +94,8 @@ async fn pictures(State(app): State<App>, headers: HeaderMap) -> Result<Response
             Some((lesson.slug.clone(), motion::picture(&scene).ok()?))
         });
         let pictures = Pictures { scenes: scenes.collect(), lessons: lessons.collect() };
-        still(wanted).map(|()| pictures)
+        wanted.check()?;
+        Ok(pictures)
     };
     sent(&app.motions.of(&name, &app.work, make).await?, &headers)
 }

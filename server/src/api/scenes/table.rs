@@ -21,7 +21,6 @@ use crate::app::App;
 use crate::problem::Problem;
 use crate::session;
 use crate::table::{TextTable, with_errors};
-use crate::work::still;
 
 /// Numbers that a table over HTTP may have: some 60 MB of text.
 const MAX_NUMBERS: f64 = 3e6;
@@ -129,7 +128,7 @@ pub(in crate::api) fn along(
 }
 
 fn in_time(began: Instant, most: Duration, reached: f64, wanted: &Wanted) -> Result<(), Problem> {
-    still(wanted)?;
+    wanted.check()?;
     if began.elapsed() > most { Err(too_slow(reached)) } else { Ok(()) }
 }
 

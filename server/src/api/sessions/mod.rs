@@ -23,7 +23,7 @@ use crate::app::App;
 use crate::problem::Problem;
 use crate::session::{AskedFirst, Session};
 use crate::store::{CLASS, Role};
-use crate::work::{Asker, still};
+use crate::work::Asker;
 use crate::{blocking, scenes};
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
@@ -56,11 +56,11 @@ async fn create(
     let shared = app.clone();
     let session = blocking(move || {
         let app = shared;
-        still(&asking)?;
+        asking.check()?;
         let (mut scene, source) =
             choose(&app, &caller, wanted.lesson, wanted.seed.as_deref(), wanted.builtin, wanted.scene)?;
         wanted.overrides.apply(&mut scene);
-        still(&asking)?;
+        asking.check()?;
         let written_here = matches!(source, SceneSource::Scene(_));
         // Who teaches shows several things at a time; of students nobody takes the places of all.
         let whose = caller.0.filter(|member| member.role == Role::Student).map(|member| member.id);

@@ -7,7 +7,7 @@ use clap::Args;
 use tokio::runtime::Builder;
 use triad_lessons::Course;
 
-use crate::cli::terminal::{Outcome, counted, print_json, print_line};
+use crate::cli::terminal::{Outcome, counted, print_json, print_line, tell};
 use crate::grades::{Format, GradeTable, csv, fill, lines, table};
 use crate::policy::Moment;
 use crate::problem::Problem;
@@ -68,14 +68,14 @@ fn filled(file: &Path, grades: &GradeTable, json: bool) -> Result<(), Problem> {
         return Ok(());
     }
     print_line(filled.csv.trim_end());
-    eprintln!("triad: {} changed", counted(filled.changed, "grade"));
+    tell(&format!("triad: {} changed", counted(filled.changed, "grade")));
     for (what, names) in [
         ("not in this class", &filled.unknown),
         ("not in the file", &filled.missing),
         ("without a column in the file", &filled.without_column),
     ] {
         if !names.is_empty() {
-            eprintln!("triad: {what}: {}", names.join("; "));
+            tell(&format!("triad: {what}: {}", names.join("; ")));
         }
     }
     Ok(())

@@ -14,7 +14,7 @@ use triad_engine::scene::Scene;
 use triad_lab::stress::{self, CaseReport, StressCase, StressVerdict, TrialMethod};
 
 use crate::cli::output::{Form, apart, make_room, write};
-use crate::cli::terminal::{Outcome, print_json, print_line, progress};
+use crate::cli::terminal::{Outcome, print_json, print_line, progress, tell};
 use crate::problem::Problem;
 
 /// Random mechanisms of the quick and of the full form.
@@ -183,7 +183,7 @@ fn seeds(options: &Stress) -> (u64, u64) {
 /// Keeps an entry; one that went wrong is printed at once, a random one as a small scene that can be kept.
 fn add(entries: &mut Vec<CaseReport>, entry: CaseReport, json: bool) {
     if !json && !entry.as_expected() {
-        eprintln!("{}: {}: {}", entry.case, entry.outcome.verdict, entry.outcome.reason);
+        tell(&format!("{}: {}: {}", entry.case, entry.outcome.verdict, entry.outcome.reason));
     }
     entries.push(entry);
 }

@@ -131,6 +131,9 @@ pub(in crate::cli) fn run(options: &Options, json: bool) -> Result<Outcome, Prob
     let found = sweep(&plan, options.threads, &watcher)?;
     drop(watcher);
     notes.extend(found.note.map(str::to_owned));
+    let of_runs = found.notes().into_iter().filter(|(note, ..)| !notes.iter().any(|known| known == note));
+    let of_runs: Vec<String> = of_runs.map(of_run).collect();
+    notes.extend(of_runs);
     clock.lap("run");
     if let Some(path) = &options.out {
         write(path, table(&found))?;
@@ -163,6 +166,13 @@ pub(in crate::cli) fn run(options: &Options, json: bool) -> Result<Outcome, Prob
         }
     }
     Ok(if left == 0 && found.runs.iter().all(|run| run.result.is_ok()) { Outcome::Done } else { Outcome::No })
+}
+
+/// What was told of a run, and of others likewise.
+fn of_run((note, run, runs): (&str, usize, usize)) -> String {
+    let likewise =
+        if runs > 1 { format!(" (the like of {} more)", counted(runs - 1, "run")) } else { String::new() };
+    format!("run {run}: {note}{likewise}")
 }
 
 fn plan(options: &Options) -> Result<SweepPlan, Problem> {
@@ -349,7 +359,9 @@ fn errors(found: &Sweep) -> Option<String> {
     let mut line =
         format!("  error                  positions right to about {:.0e} m", greatest(&positions));
     for (name, what, unit) in [
+        ("turn_error", "directions", "rad"),
         ("velocity_error", "velocities", "m/s"),
+        ("angular_velocity_error", "angular velocities", "rad/s"),
         ("energy_error", "the energy", "J"),
         ("force_error", "forces", "N"),
         ("moment_error", "moments", "N m"),

@@ -1,12 +1,14 @@
 //! `triad reactions`, `equilibrium`, `modes`, `kinematics` and `assemble`.
 
 use clap::{Args, ValueEnum};
+use serde::Serialize;
 use triad_engine::EngineError;
-use triad_engine::analysis;
+use triad_engine::Scene;
+use triad_engine::analysis::{self, AnalysisError};
 use triad_engine::reactions::report::{Convention, ExpressedIn, MomentReference, Side};
 use triad_engine::run::Simulation;
 
-use super::numbers::{Scale, digits, largest, triple};
+use super::numbers::{LEAST, Scale, digits, largest, triple};
 use super::source::Source;
 use super::worth::{Judged, Worth};
 use crate::cli::clock::{Clock, Timed};
@@ -76,6 +78,32 @@ impl Words {
     }
 }
 
+/// Reads a scene and prints what an analysis finds: for machines, or for people by `print`.
+fn answer<T: Serialize>(
+    source: &Source,
+    json: bool,
+    analyze: impl FnOnce(&Scene) -> Result<T, AnalysisError>,
+    print: impl FnOnce(&Scene, &T),
+) -> Result<Outcome, Problem> {
+    let mut clock = Clock::start();
+    let scene = source.read()?;
+    clock.lap("read");
+    let found = analyze(&scene)?;
+    clock.lap("solve");
+    if json {
+        print_json(&Timed { answer: &found, seconds: &clock });
+    } else {
+        print(&scene, &found);
+    }
+    Ok(Outcome::Done)
+}
+
+fn print_notes(notes: &[String]) {
+    for note in notes {
+        print_line(&format!("  note: {note}"));
+    }
+}
+
 /// Reactions of a scene at a time.
 pub(in crate::cli) fn reactions(
     source: &Source,
@@ -97,7 +125,7 @@ pub(in crate::cli) fn reactions(
         return Err(EngineError::TimeOutside { time: at, from: 0.0, to: simulation.time() }.into());
     }
     let report = simulation.reactions(words.convention())?;
-    let worth = Worth::of(&simulation);
+    let worth = Worth::of(&simulation, words.convention())?;
     clock.lap("solve");
     if json {
         print_json(&Timed { answer: &Judged { report: &report, worth }, seconds: &clock });
@@ -111,28 +139,24 @@ pub(in crate::cli) fn reactions(
 
 /// Static equilibrium near the start.
 pub(in crate::cli) fn equilibrium(source: &Source, json: bool) -> Result<Outcome, Problem> {
-    let mut clock = Clock::start();
-    let scene = source.read()?;
-    clock.lap("read");
-    let found = analysis::equilibrium(&scene)?;
-    clock.lap("solve");
-    if json {
-        print_json(&Timed { answer: &found, seconds: &clock });
-        return Ok(Outcome::Done);
-    }
+    answer(source, json, analysis::equilibrium, print_equilibrium)
+}
+
+fn print_equilibrium(scene: &Scene, found: &analysis::Equilibrium) {
     let verdict = match found.stable {
         Some(true) => "stable",
         Some(false) => "unstable: the least touch leaves it",
         None => "whether it is stable is undecided",
     };
     print_line(&format!("{}: equilibrium after {} steps, {verdict}", scene.name, found.iterations));
+    print_line(&match found.error {
+        Some(error) => format!("  error: positions right to about {:.0e} m", error.max(f64::EPSILON)),
+        None => "  error: positions are not known along motions that meet no stiffness".to_owned(),
+    });
     let scale = Scale::of(&found.bodies, &found.reactions);
-    scale.print_bodies(&scene, &found.bodies);
+    scale.print_bodies(scene, &found.bodies);
     scale.print_reactions(&found.reactions);
-    for note in &found.notes {
-        print_line(&format!("  note: {note}"));
-    }
-    Ok(Outcome::Done)
+    print_notes(&found.notes);
 }
 
 /// Eigenfrequencies and mode shapes.
@@ -141,15 +165,10 @@ pub(in crate::cli) fn modes(
     about: analysis::ModesAbout,
     json: bool,
 ) -> Result<Outcome, Problem> {
-    let mut clock = Clock::start();
-    let scene = source.read()?;
-    clock.lap("read");
-    let found = analysis::modes(&scene, about)?;
-    clock.lap("solve");
-    if json {
-        print_json(&Timed { answer: &found, seconds: &clock });
-        return Ok(Outcome::Done);
-    }
+    answer(source, json, |scene| analysis::modes(scene, about), print_modes)
+}
+
+fn print_modes(scene: &Scene, found: &analysis::Modes) {
     print_line(&format!("{}: {} degrees of freedom", scene.name, found.freedoms));
     if let Some(steady) = &found.steady {
         print_line(&format!(
@@ -162,9 +181,9 @@ pub(in crate::cli) fn modes(
         }
         // A start that is not steady may be far from the motion that is found.
         print_line("  where the bodies stand in it:");
-        Scale::of_places(&found.bodies).print_bodies(&scene, &found.bodies);
+        Scale::of_places(&found.bodies).print_bodies(scene, &found.bodies);
     }
-    print_modes(&scene, &found);
+    print_shapes(scene, found);
     if found.left_out > 0 {
         print_line(&format!("  motions left out because they have no inertia: {}", found.left_out));
         for turns in &found.without_inertia {
@@ -172,14 +191,11 @@ pub(in crate::cli) fn modes(
             print_line(&format!("    {} turns about {}", turns.body, axes.join(" and ")));
         }
     }
-    for note in &found.notes {
-        print_line(&format!("  note: {note}"));
-    }
-    Ok(Outcome::Done)
+    print_notes(&found.notes);
 }
 
 /// Each mode with its shape; of one whose bodies do not move in phase also the shape a quarter of a period later.
-fn print_modes(scene: &triad_engine::Scene, found: &analysis::Modes) {
+fn print_shapes(scene: &Scene, found: &analysis::Modes) {
     for (index, mode) in found.modes.iter().enumerate() {
         print_line(&format!(
             "  mode {}: {:<10} {:>12} Hz, growth {:>12} 1/s, damping ratio {}",
@@ -215,20 +231,12 @@ fn print_modes(scene: &triad_engine::Scene, found: &analysis::Modes) {
     }
 }
 
-/// Half of the last place of a component that is printed.
-const LEAST: f64 = 5e-7;
-
 /// Kinematic analysis and inverse dynamics of a driven scene.
 pub(in crate::cli) fn kinematics(source: &Source, words: &Words, json: bool) -> Result<Outcome, Problem> {
-    let mut clock = Clock::start();
-    let scene = source.read()?;
-    clock.lap("read");
-    let found = analysis::kinematics(&scene, words.convention())?;
-    clock.lap("solve");
-    if json {
-        print_json(&Timed { answer: &found, seconds: &clock });
-        return Ok(Outcome::Done);
-    }
+    answer(source, json, |scene| analysis::kinematics(scene, words.convention()), print_kinematics)
+}
+
+fn print_kinematics(scene: &Scene, found: &analysis::Kinematics) {
     print_line(&format!(
         "{}: {} positions, {} steps between them",
         scene.name,
@@ -248,38 +256,31 @@ pub(in crate::cli) fn kinematics(source: &Source, words: &Words, json: bool) -> 
     }
     for event in &found.events {
         let end = if event.stop { "; the motion ends there" } else { "" };
+        let error = event.error.map_or_else(String::new, |error| format!(" (to {error:.0e} s)"));
         print_line(&format!(
-            "  event {} at t = {:.9} s, rate {}{end}",
+            "  event {} at t = {:.9} s{error}, rate {}{end}",
             event.name,
             event.time,
             digits(event.rate)
         ));
     }
-    for note in &found.notes {
-        print_line(&format!("  note: {note}"));
-    }
+    print_notes(&found.notes);
     for state in &found.states {
         print_line(&format!("t = {:.6} s", state.time));
         let scale = Scale::of(&state.bodies, &state.reactions);
-        scale.print_moving(&scene, &state.bodies);
+        scale.print_moving(scene, &state.bodies);
         for driver in state.reactions.reactions.iter().filter(|r| r.driver) {
             scale.print_reaction(driver);
         }
     }
-    Ok(Outcome::Done)
 }
 
 /// Assembly from a rough start.
 pub(in crate::cli) fn assemble(source: &Source, keep: &[String], json: bool) -> Result<Outcome, Problem> {
-    let mut clock = Clock::start();
-    let scene = source.read()?;
-    clock.lap("read");
-    let found = analysis::assemble(&scene, keep)?;
-    clock.lap("solve");
-    if json {
-        print_json(&Timed { answer: &found, seconds: &clock });
-        return Ok(Outcome::Done);
-    }
+    answer(source, json, |scene| analysis::assemble(scene, keep), print_assembly)
+}
+
+fn print_assembly(scene: &Scene, found: &analysis::Assembly) {
     print_line(&format!(
         "{}: closed after {} steps; open by {:.3e} at the start, {:.3e} now",
         scene.name, found.iterations, found.violation, found.left
@@ -299,8 +300,5 @@ pub(in crate::cli) fn assemble(source: &Source, keep: &[String], json: bool) -> 
             body.turned
         ));
     }
-    for note in &found.notes {
-        print_line(&format!("  note: {note}"));
-    }
-    Ok(Outcome::Done)
+    print_notes(&found.notes);
 }

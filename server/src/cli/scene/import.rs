@@ -7,7 +7,7 @@ use serde_json::json;
 use triad_urdf::{self as urdf, SideCar};
 
 use crate::cli::output::{Form, apart, write};
-use crate::cli::terminal::{Outcome, print_json, print_line};
+use crate::cli::terminal::{Outcome, print_json, print_line, tell};
 use crate::problem::Problem;
 use crate::scenes;
 
@@ -53,15 +53,15 @@ pub(in crate::cli) fn import(options: &Import, json: bool) -> Result<Outcome, Pr
         None => print_line(&written),
     }
     if !json {
-        eprintln!(
+        tell(&format!(
             "{}: {} bodies, {} joints, {} degrees of freedom",
             imported.scene.name,
             imported.scene.bodies.len(),
             imported.scene.joints.len(),
             report.degrees_of_freedom
-        );
+        ));
         for left in &imported.left_out {
-            eprintln!("  line {}, {}: left out: {}", left.line, left.of, left.what);
+            tell(&format!("  line {}, {}: left out: {}", left.line, left.of, left.what));
         }
     }
     Ok(Outcome::Done)

@@ -7,7 +7,7 @@ use triad_engine::state::BodyFrame;
 use crate::cli::terminal::print_line;
 
 /// Half of the last place that is shown, as a part of the largest number of a kind, or of one where that is larger.
-const LEAST: f64 = 5e-7;
+pub(super) const LEAST: f64 = 5e-7;
 /// Part of what forces do over the length of a mechanism below which moments are their rounding, and forces likewise.
 const ROUNDING: f64 = 1e-12;
 

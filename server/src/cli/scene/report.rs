@@ -11,7 +11,7 @@ use triad_lab::verify::Verification;
 use super::options::Run;
 use crate::cli::clock::Clock;
 use crate::cli::output::{Form, is_standard};
-use crate::cli::terminal::{print_json, print_line};
+use crate::cli::terminal::{error_label, print_json, print_line, tell};
 use crate::problem::Problem;
 
 /// Most joints that are named at singular positions.
@@ -89,7 +89,7 @@ pub(super) fn report(
         print_line(&format!("  written                {}", file.display()));
     }
     if let Some(problem) = stopped {
-        eprintln!("{} {problem}", crate::cli::terminal::error_label());
+        tell(&format!("{} {problem}", error_label()));
     }
 }
 
@@ -97,7 +97,8 @@ pub(super) fn report(
 fn occurrence(event: &EventOccurrence) -> String {
     let end = if event.stop { "; the run ends there" } else { "" };
     let EventOccurrence { name, time, .. } = event;
-    format!("  event                  {name} at {time:.15} s, rate {}{end}", nine(event.rate))
+    let error = event.error.map_or_else(String::new, |error| format!(" (to {error:.0e} s)"));
+    format!("  event                  {name} at {time:.15} s{error}, rate {}{end}", nine(event.rate))
 }
 
 /// The first of many names; all are in the JSON.

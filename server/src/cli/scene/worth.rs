@@ -1,7 +1,8 @@
 //! What reactions at a moment of a run are worth.
 
 use serde::Serialize;
-use triad_engine::reactions::report::ReactionReport;
+use triad_engine::EngineError;
+use triad_engine::reactions::report::{Convention, ReactionReport};
 use triad_engine::run::{ReactionErrors, Simulation};
 
 use crate::cli::terminal::print_line;
@@ -29,11 +30,11 @@ pub(super) struct Worth {
 }
 
 impl Worth {
-    /// At the present of a run.
-    pub fn of(simulation: &Simulation) -> Self {
-        let reaction_errors = simulation.reaction_errors();
+    /// At the present of a run, of reactions as they are told.
+    pub fn of(simulation: &Simulation, convention: Convention) -> Result<Self, EngineError> {
+        let reaction_errors = simulation.reaction_errors_as_told(convention)?;
         let summary = simulation.summary();
-        Self { reaction_errors, error_unknown_from: summary.error_unknown_from, doubts: summary.doubts }
+        Ok(Self { reaction_errors, error_unknown_from: summary.error_unknown_from, doubts: summary.doubts })
     }
 
     /// For people.

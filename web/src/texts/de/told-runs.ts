@@ -136,8 +136,8 @@ export const toldOfRuns: Record<string, string> = {
     "Lagen weichen um etwa {off} m ab, mehr als ein Hundertstel der Länge des Mechanismus von {length} m; {cause}",
   "a singular position was passed at t = {time} s, through which {method} holds neither the constraints nor the branch of the motion: what follows may be wrong; {cause}":
     "Bei t = {time} s wurde eine singuläre Lage durchlaufen, in der {method} weder die Zwangsbedingungen noch den Zweig der Bewegung hält: Was folgt, kann falsch sein; {cause}",
-  "{size} of the largest kinetic energy came from nowhere or went there, more than a tolerance of {tolerance} promises; {cause}":
-    "{size} der größten kinetischen Energie kamen aus dem Nichts oder verschwanden darin, mehr als eine Toleranz von {tolerance} verspricht; {cause}",
+  "{size} of the energy in play came from nowhere or went there, more than a tolerance of {tolerance} promises; {cause}":
+    "{size} der beteiligten Energie kamen aus dem Nichts oder verschwanden darin, mehr als eine Toleranz von {tolerance} verspricht; {cause}",
   "{size} of the mechanism's size is how far the joints are open, more than a tolerance of {tolerance} promises; {cause}":
     "Die Gelenke sind um {size} der Größe des Mechanismus offen, mehr als eine Toleranz von {tolerance} verspricht; {cause}",
   "{size} of the lightest mass is lost in the rounding of the penalties, more than a tolerance of {tolerance} promises; {cause}":
@@ -214,6 +214,8 @@ export const toldOfRuns: Record<string, string> = {
     "Die Dämpfung der Feder „{name}“ bleibt weg: Die Feder hat in dieser Lage keine Länge und also keine Richtung",
   "joints and drivers leave no freedom: nothing can vibrate":
     "Gelenke und Antriebe lassen keine Freiheit: Nichts kann schwingen",
+  "the position is singular: {lost} rows lose their hold there, and branches of motion meet. The linear equations allow all that these rows let through: some of the modes are motions of no branch":
+    "Die Lage ist singulär: {lost} Zeilen verlieren dort ihren Halt, und Zweige der Bewegung treffen sich. Die linearen Gleichungen erlauben alles, was diese Zeilen durchlassen: Einige der Eigenformen sind Bewegungen keines Zweigs",
   "the position is not an equilibrium: a generalized force of {left} N is left, which the linear equations leave out":
     "Die Lage ist kein Gleichgewicht: Eine verallgemeinerte Kraft von {left} N bleibt, die die linearen Gleichungen weglassen",
   "t = {time} s is next to a singular position: forces grow beyond all bounds there, unless what acts on the bodies happens to be in balance, and those shown are not unique":

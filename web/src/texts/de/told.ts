@@ -103,6 +103,22 @@ export const told: Record<string, string> = {
   'joint "{joint}": there is no body "{name}"': "Gelenk „{joint}“: Es gibt keinen Körper „{name}“",
   'driver "{driver}": there is no body "{name}"': "Antrieb „{driver}“: Es gibt keinen Körper „{name}“",
   'load "{load}": there is no body "{name}"': "Last „{load}“: Es gibt keinen Körper „{name}“",
+  'marker "{marker}": there is no body "{name}"': "Marke „{marker}“: Es gibt keinen Körper „{name}“",
+  'event "{event}": there is no body "{name}"': "Ereignis „{event}“: Es gibt keinen Körper „{name}“",
+  'driver "{driver}": there is no joint "{name}"': "Antrieb „{driver}“: Es gibt kein Gelenk „{name}“",
+  'load "{load}": there is no joint "{name}"': "Last „{load}“: Es gibt kein Gelenk „{name}“",
+  'event "{event}": there is no joint "{name}"': "Ereignis „{event}“: Es gibt kein Gelenk „{name}“",
+  'joint "{joint}": there is no joint "{name}" before it; a gear is written after its two joints':
+    "Gelenk „{joint}“: Davor gibt es kein Gelenk „{name}“; ein Zahnradpaar steht hinter seinen beiden Gelenken",
+  'event "{event}": there is no marker "{name}"': "Ereignis „{event}“: Es gibt keine Marke „{name}“",
+  'output "{output}": there is no {what} "{name}"':
+    "Ausgabe „{output}“: Es gibt dort nichts mit dem Namen „{name}“ ({what})",
+  'output "{output}": there is nothing that {kind} could be wanted of by name':
+    "Ausgabe „{output}“: Es gibt nichts, wovon {kind} mit Namen verlangt werden könnte",
+  "Write a word alone, like reactions, or with the name of one element behind a colon, like reactions:pin.":
+    "Schreib ein Wort allein, wie reactions, oder mit dem Namen eines Elements hinter einem Doppelpunkt, wie reactions:pin.",
+  'joint "{joint}" is {kind}, and it needs one that is {kinds}':
+    "Gelenk „{joint}“ ist von der Art {kind}, gebraucht wird hier eines der Art {kinds}",
   'there is no {what} "{name}"': "es gibt dort nichts mit dem Namen „{name}“ ({what})",
   'joint "{joint}": it joins "{body}" to itself': "Gelenk „{joint}“: Es verbindet „{body}“ mit sich selbst",
   'body "{body}": its mass is {mass} kg, but a mass must be positive':
@@ -163,9 +179,14 @@ export const told: Record<string, string> = {
   "Compare the place with the JSON Schema of a scene (`triad schema`).":
     "Vergleiche die Stelle mit dem JSON-Schema einer Szene (`triad schema`).",
   "Add at least one body with a name and a mass.": "Schreib wenigstens einen Körper mit Namen und Masse.",
-  "Give each element of a list its own name.": "Gib jedem Element einer Liste einen eigenen Namen.",
-  'Choose a name that is not empty and not "ground", which is the fixed body.':
-    "Wähl einen Namen, der nicht leer und nicht „ground“ ist: So heißt das Gestell.",
+  "Give each element of a list its own name; joints and drivers share one list of names.":
+    "Gib jedem Element einer Liste einen eigenen Namen; Gelenke und Antriebe teilen sich eine Liste von Namen.",
+  "Divide its components by its length, or give a vector that turns about an axis, which keeps its length.":
+    "Teil ihre Komponenten durch ihre Länge, oder gib einen Vektor, der sich um eine Achse dreht: Er behält seine Länge.",
+  "Leave it out.": "Lass es weg.",
+  'Choose a name that is not empty, has no line breaks, and is not "ground", which is the fixed body.':
+    "Wähl einen Namen, der nicht leer und nicht „ground“ ist (so heißt das Gestell) und keine Zeilenumbrüche hat.",
+  "Use the name of a {what} of the scene.": "Nimm einen Namen, den es in der Szene gibt ({what}).",
   'Use the name of one of the bodies, or "ground".': "Nimm den Namen eines der Körper oder „ground“.",
   'Name two different bodies, one of which may be "ground".':
     "Nenn zwei verschiedene Körper; einer darf „ground“ sein.",

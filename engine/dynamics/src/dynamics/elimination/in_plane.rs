@@ -16,6 +16,7 @@ use crate::system::planar::Plane;
 use crate::system::row::Form;
 use crate::system::{Row, System};
 use nalgebra::Vector3;
+use triad_linalg::largest_size;
 
 /// Relative pivot below which the whole of S decides: the position may be a singular one.
 const LEAST_PIVOT: f64 = 1e-6;
@@ -303,8 +304,7 @@ impl Elimination {
         for ((lambda, near), change) in self.lambda.iter_mut().zip(&near.lambda).zip(&self.residual) {
             *lambda = near + change;
         }
-        let [change, largest] =
-            [&self.residual, &self.lambda].map(|x| x.iter().fold(0.0f64, |a, x| a.max(x.abs())));
+        let [change, largest] = [&self.residual, &self.lambda].map(|x| largest_size(x));
         change <= NEAR * largest
     }
 }

@@ -2,7 +2,7 @@
 //! discretizations need that multiply Φ_Qᵀ of the start of a step and close Φ at its end — eq. (10.8).
 
 use super::Elimination;
-use super::right_side::{gram, particular_directors};
+use super::right_side::{particular_directors, stretch, stretching};
 use crate::model::BodyRef;
 use crate::scene::Coordinates;
 use crate::state::{Residual, State};
@@ -28,20 +28,9 @@ impl Elimination {
     ) {
         for (index, (solve, body)) in self.bodies.iter_mut().zip(&system.bodies).enumerate() {
             let (at, there) = (&state.bodies()[index], &other.bodies()[index]);
-            let (e, e_dot) = (&there.q.e, &there.q_dot.e);
-            let open = gram(|k, l| {
-                if of_rates {
-                    -(e[k].dot(&e_dot[l]) + e[l].dot(&e_dot[k]))
-                } else {
-                    (if k == l { 1.0 } else { 0.0 }) - e[k].dot(&e[l])
-                }
-            });
+            let open = if of_rates { stretching(&there.q, &there.q_dot) } else { stretch(&there.q) };
             let particular = particular_directors(Coordinates::Full, &at.q, &open, |_, _| {}, &at.q_dot);
-            solve.particular = NaturalCoordinates { r: Vector3::zeros(), e: particular };
-            let force = &forces[index];
-            let moment: Vector3<f64> =
-                (0..3).map(|k| at.q.e[k].cross(&(force.e[k] - particular[k] * body.ibar[k]))).sum();
-            solve.wrench = [force.r, moment];
+            solve.begin(&forces[index], particular, &body.ibar, &at.q);
             solve.at_zero = Vector3::zeros();
         }
         for place in 0..system.changing {
@@ -56,14 +45,7 @@ impl Elimination {
             match row.form {
                 Form::Coincidence { a, b } | Form::CommonVector { a, b } => {
                     let gamma = r - (self.particular[a.index()] - self.particular[b.index()]);
-                    if matches!(row.form, Form::Coincidence { .. }) {
-                        self.gamma[row.solver..row.solver + 3].copy_from_slice(gamma.as_slice());
-                    } else {
-                        for k in 0..2 {
-                            self.gamma[row.solver + k] =
-                                self.jacobian.transverse(RowId(index))[k].dot(&gamma);
-                        }
-                    }
+                    self.write_vector(RowId(index), row, &gamma);
                 }
                 Form::Product { a, b, .. } => {
                     self.gamma[row.solver] = r[0] - self.particular_product(state, a, b);

@@ -4,7 +4,7 @@
 use crate::dynamics::blocks::{BlockProduct, SchurLayout, add_block, add_square};
 use crate::system::System;
 use crate::system::row::Form;
-use triad_linalg::BlockCholesky;
+use triad_linalg::{BlockCholesky, larger, largest_size};
 
 /// The rows of a joint on a body, among those of all blocks.
 #[derive(Clone, Debug)]
@@ -236,12 +236,12 @@ impl Part {
 
     /// The largest of the last changes of the multipliers, and of the multipliers.
     pub fn change(&self) -> [f64; 2] {
-        [&self.residual, &self.lambda].map(|x| x.iter().fold(0.0f64, |largest, x| largest.max(x.abs())))
+        [&self.residual, &self.lambda].map(|x| largest_size(x))
     }
 
     /// The largest component of a twist.
     pub fn largest_twist(&self) -> f64 {
-        self.bodies.iter().flat_map(|body| body.twist).fold(0.0, |largest: f64, x| largest.max(x.abs()))
+        self.bodies.iter().map(|body| largest_size(&body.twist)).fold(0.0, larger)
     }
 
     /// Hands over its multipliers.

@@ -1,14 +1,14 @@
 //! Right-hand sides: the particular accelerations that satisfy the rigid-body rows, the wrenches and γ — eq. (7.1).
 
-use super::Elimination;
+use super::{BodySolve, Elimination};
 use crate::model::BodyRef;
 use crate::scene::Coordinates;
 use crate::state::{BodyState, State};
-use crate::system::System;
 use crate::system::feature::Difference;
 use crate::system::index::RowId;
 use crate::system::natural::NaturalCoordinates;
 use crate::system::row::Form;
+use crate::system::{Row, System};
 use nalgebra::{Matrix3, Vector3};
 
 impl Elimination {
@@ -36,13 +36,8 @@ impl Elimination {
                 },
                 &at.q_dot,
             );
-            solve.particular = NaturalCoordinates { r: Vector3::zeros(), e: particular };
-            let mut moment = Vector3::zeros();
-            for k in 0..3 {
-                let p = solve.force.e[k] - particular[k] * body.ibar[k];
-                moment += at.q.e[k].cross(&p);
-            }
-            solve.wrench = [solve.force.r, moment];
+            let force = solve.force;
+            solve.begin(&force, particular, &body.ibar, &at.q);
             let reduced = body.coordinates == Coordinates::Reduced;
             let turns = velocity_terms && reduced && body.regularizing_inertia > 0.0;
             let turned = |k: usize| at.q.e[k].cross(&particular[k]) * -0.5;
@@ -87,14 +82,7 @@ impl Elimination {
                     let rate = state.feature_rate(a) - state.feature_rate(b);
                     let gamma = Vector3::from_fn(|k, _| shift(value[k], rate[k]))
                         - (self.particular[a.index()] - self.particular[b.index()]);
-                    if matches!(row.form, Form::Coincidence { .. }) {
-                        self.gamma[row.solver..row.solver + 3].copy_from_slice(gamma.as_slice());
-                    } else {
-                        for k in 0..2 {
-                            self.gamma[row.solver + k] =
-                                self.jacobian.transverse(RowId(index))[k].dot(&gamma);
-                        }
-                    }
+                    self.write_vector(RowId(index), row, &gamma);
                 }
                 Form::Product { a, b, target } => {
                     let [c, c_rate, c_acceleration] = state.target(target);
@@ -115,6 +103,17 @@ impl Elimination {
                     }
                     self.gamma[row.solver] = gamma;
                 }
+            }
+        }
+    }
+
+    /// Writes γ' of a row whose Φ is a vector.
+    pub(super) fn write_vector(&mut self, index: RowId, row: &Row, gamma: &Vector3<f64>) {
+        if matches!(row.form, Form::Coincidence { .. }) {
+            self.gamma[row.solver..row.solver + 3].copy_from_slice(gamma.as_slice());
+        } else {
+            for k in 0..2 {
+                self.gamma[row.solver + k] = self.jacobian.transverse(index)[k].dot(gamma);
             }
         }
     }
@@ -161,6 +160,32 @@ impl Elimination {
             solve.force = NaturalCoordinates::default();
         }
     }
+}
+
+impl BodySolve {
+    /// Begins with particular directors, and the wrench of a generalized force less their inertia at a position.
+    pub(super) fn begin(
+        &mut self,
+        force: &NaturalCoordinates,
+        particular: [Vector3<f64>; 3],
+        ibar: &Vector3<f64>,
+        q: &NaturalCoordinates,
+    ) {
+        let p = |k: usize| force.e[k] - particular[k] * ibar[k];
+        let moment = (0..3).map(|k| q.e[k].cross(&p(k))).sum();
+        self.particular = NaturalCoordinates { r: Vector3::zeros(), e: particular };
+        self.wrench = [force.r, moment];
+    }
+}
+
+/// What directors lack of unit length and right angles.
+pub(super) fn stretch(NaturalCoordinates { e, .. }: &NaturalCoordinates) -> Matrix3<f64> {
+    gram(|k, l| if k == l { 1.0 } else { 0.0 } - e[k].dot(&e[l]))
+}
+
+/// Less the rates of their lengths and right angles.
+pub(super) fn stretching(q: &NaturalCoordinates, q_dot: &NaturalCoordinates) -> Matrix3<f64> {
+    gram(|k, l| -(q.e[k].dot(&q_dot.e[l]) + q.e[l].dot(&q_dot.e[k])))
 }
 
 /// Symmetric 3 × 3 matrix of entries (k, l), k ≥ l.

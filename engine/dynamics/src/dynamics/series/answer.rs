@@ -32,7 +32,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// The generalized force that multipliers make on bundle b, with the forces on features in place.
     #[inline(always)]
     pub(super) fn multipliers_force<S: Simd>(&self, simd: S, b: usize, multipliers: &[f64]) -> B::Natural {
-        let mut force = B::zero();
+        let mut force = B::ZERO;
         self.points.add_forces::<S, B>(simd, b, multipliers, &mut force);
         if self.points.has_others() {
             for &slot in self.points.others(b) {

@@ -2,8 +2,8 @@
 
 use super::answer::Answer;
 use super::lanes::{raise_whole, times};
-use super::lent::{Lending, Lent, Stage};
 use super::recurrence::acceleration_factor;
+use super::regularization::{InertiaRegularization, Regularizing, Stage};
 use super::{Bodies, Series};
 use pulp::{Simd, WithSimd};
 use triad_linalg::{fma, larger};
@@ -74,15 +74,15 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Q_(n+2) and λ_n from all coefficients before them — eq. (11.2).
     #[inline(always)]
     pub(super) fn solve_order<S: Simd>(&mut self, simd: S, n: usize) {
-        if self.is_bare() && self.lent.is_none() && self.solve_alone(simd, n) {
+        if self.is_bare() && self.regularization.is_none() && self.solve_alone(simd, n) {
             return;
         }
         let kappa = acceleration_factor(n);
         let over_kappa = 1.0 / kappa;
         let needs_values = self.needs_values;
-        let mut lent = self.lent.take();
-        if let Some(lent) = &mut lent {
-            simd.vectorize(Lending { series: self, lent, n, stage: Stage::Prepare });
+        let mut regularization = self.regularization.take();
+        if let Some(regularization) = &mut regularization {
+            simd.vectorize(Regularizing { series: self, regularization, n, stage: Stage::Prepare });
         }
         for bundle in &mut self.bundles {
             bundle.clear_force();
@@ -105,14 +105,14 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         if needs_values {
             self.prepare_prescribed(n + 2, kappa);
         }
-        if let Some(lent) = &mut lent {
-            simd.vectorize(Lending { series: self, lent, n, stage: Stage::TurnOn });
+        if let Some(regularization) = &mut regularization {
+            simd.vectorize(Regularizing { series: self, regularization, n, stage: Stage::TurnOn });
         }
-        self.solve(simd, lent.as_deref_mut(), n);
-        if let Some(lent) = &mut lent {
-            simd.vectorize(Lending { series: self, lent, n, stage: Stage::Store });
+        self.solve(simd, regularization.as_deref_mut(), n);
+        if let Some(regularization) = &mut regularization {
+            simd.vectorize(Regularizing { series: self, regularization, n, stage: Stage::Store });
         }
-        self.lent = lent;
+        self.regularization = regularization;
         let mut largest = [0.0; 4];
         for (b, bundle) in self.bundles.iter().enumerate() {
             let at = b * self.stride + n;
@@ -151,9 +151,14 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// Adds the joints' forces to the solutions that bodies have without them; λ goes to order n.
     #[inline(always)]
-    pub(super) fn solve<S: Simd>(&mut self, simd: S, lent: Option<&mut Lent<L, B>>, n: usize) {
+    pub(super) fn solve<S: Simd>(
+        &mut self,
+        simd: S,
+        regularization: Option<&mut InertiaRegularization<L, B>>,
+        n: usize,
+    ) {
         let rows = self.correction.len();
-        if self.schur.factor.numbers() == 0 && lent.is_none() {
+        if self.schur.factor.numbers() == 0 && regularization.is_none() {
             return;
         }
         if self.points.has_others() {
@@ -161,10 +166,10 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         }
         self.answer(simd);
         self.lambda[n * rows..(n + 1) * rows].copy_from_slice(&self.correction);
-        if let Some(lent) = lent {
+        if let Some(regularization) = regularization {
             // Moments over δ are large, and so is their rounding beside what joints leave of them.
             self.refine(simd, n);
-            simd.vectorize(Lending { series: self, lent, n, stage: Stage::Return });
+            simd.vectorize(Regularizing { series: self, regularization, n, stage: Stage::Return });
         }
         for _ in 0..self.refinements() {
             self.refine(simd, n);
@@ -223,7 +228,7 @@ fn take_solution<S: Simd, const L: usize, B: Bodies<L>>(
 /// Value and derivative of a polynomial Σ Q_k τᵏ — eq. (11.1).
 #[inline(always)]
 fn horner<const L: usize, B: Bodies<L>>(coefficients: &[B::Natural], tau: f64) -> [B::Natural; 2] {
-    let mut state = [B::zero(); 2];
+    let mut state = [B::ZERO; 2];
     let [value, rate] = &mut state;
     let (value, rate) = (B::lanes_mut(value), B::lanes_mut(rate));
     for coefficient in coefficients.iter().rev() {

@@ -90,7 +90,7 @@ impl<const L: usize, B: Bodies<L>> Instants<L, B> {
                 instants.add(series, system, body, [b, lane], own);
             }
         }
-        instants.mobility = vec![B::no_mobility(); instants.slots.len()];
+        instants.mobility = vec![B::NO_MOBILITY; instants.slots.len()];
         Some(instants)
     }
 
@@ -158,7 +158,7 @@ fn value_at<const L: usize, B: Bodies<L>>(
     lane: usize,
     tau: &Lane<L>,
 ) -> B::Natural {
-    let (mut value, lane) = (B::zero(), lane % L);
+    let (mut value, lane) = (B::ZERO, lane % L);
     let lanes = B::lanes_mut(&mut value);
     for coefficient in coefficients.iter().rev() {
         for (value, c) in lanes.iter_mut().zip(B::lanes(coefficient)) {

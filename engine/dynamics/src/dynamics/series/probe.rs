@@ -7,7 +7,7 @@ use super::{Bodies, Series};
 use crate::newton::{Movable, project_positions, project_velocities, rules};
 use crate::system::System;
 use pulp::{Arch, Simd, WithSimd};
-use triad_linalg::{larger, raise};
+use triad_linalg::{larger, larger_or_nan, raise};
 
 /// A factorization of which only the pivots are wanted, to be compiled for each set of vector instructions.
 struct PivotProducts<'a, const L: usize, B: Bodies<L>>(&'a mut Series<L, B>);
@@ -121,7 +121,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         for (bundle, [q, _]) in self.bundles.iter().zip(&self.state) {
             let stretch = B::stretch(q);
             for stretch in &stretch[..bundle.bodies().len()] {
-                most = if stretch.is_nan() { *stretch } else { larger(most, *stretch) };
+                most = larger_or_nan(most, *stretch);
             }
         }
         most

@@ -61,16 +61,16 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             } else {
                 bundle.velocity_correction(&state[0], &state[1])
             };
-            bundle.begin(simd, &state[0], &gamma, B::no_moment());
+            bundle.begin(simd, &state[0], &gamma, B::NO_MOMENT);
         }
         self.prescribed.clear_known();
         // The multipliers of a correction mean nothing; the highest order has room for them.
-        let mut lent = self.lent.take();
-        if let Some(lent) = &mut lent {
-            lent.begin();
+        let mut regularization = self.regularization.take();
+        if let Some(regularization) = &mut regularization {
+            regularization.begin();
         }
-        self.solve(simd, lent.as_deref_mut(), self.stride - 1);
-        self.lent = lent;
+        self.solve(simd, regularization.as_deref_mut(), self.stride - 1);
+        self.regularization = regularization;
         let mut moved: f64 = 0.0;
         for (bundle, state) in self.bundles.iter().zip(&mut self.state) {
             let step = B::lanes(bundle.solution());

@@ -5,7 +5,7 @@ use super::recurrence::real;
 use super::work::Taken;
 use super::{Bodies, Series};
 use crate::newton::{Ending, Projectable, Projected, project_positions, project_velocities, rules};
-use crate::system::passing::met;
+use crate::system::passing::{met, shortest_step};
 use pulp::{Arch, Simd, WithSimd};
 use triad_linalg::larger;
 
@@ -182,7 +182,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             };
         }
         let most = self.loads.limit(self.angles.limit(natural.min(left), order, MAX_TURN), order);
-        let mut h = self.loads.limit_passing(most, order, met(plan.tolerance, plan.length));
+        let beside = self.loads.limit_passing(most, order, met(plan.tolerance, plan.length));
+        let mut h = beside.max(shortest_step(start, plan.end)).min(most);
         // A longer series would not make a step longer that something else keeps short.
         let next_order =
             if h < natural { plan.order } else { self.next_order(plan.order, expanded, order, h, allowance) };

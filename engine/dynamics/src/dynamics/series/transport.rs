@@ -129,8 +129,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             self.q[b * self.stride + 2] = twin.q[b * self.stride + 2];
             self.p[b * self.stride] = twin.p[b * self.stride];
         }
-        if let (Some(lent), Some(of_twin)) = (&mut self.lent, &twin.lent) {
-            lent.recall(of_twin, self.stride);
+        if let (Some(regularization), Some(of_twin)) = (&mut self.regularization, &twin.regularization) {
+            regularization.recall(of_twin, self.stride);
         }
         self.sizes[2] = twin.sizes[2];
         let rows = self.correction.len();
@@ -171,7 +171,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 impl<const L: usize, B: Bodies<L>> Transport<L, B> {
     fn new(system: &System, series: &Series<L, B>) -> Self {
         let count = series.bundles.len();
-        let nothing = vec![[B::zero(); 2]; count];
+        let nothing = vec![[B::ZERO; 2]; count];
         let positions: Vec<B::Natural> = series.state.iter().map(|state| state[0]).collect();
         let mut twin = Series { probe: None, ..series.clone() };
         let energy = Energy::of(system, &mut twin);
@@ -180,12 +180,12 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             error: nothing.clone(),
             size: Size::default(),
             size_before: Size::default(),
-            carried: vec![B::zero(); count * series.stride],
+            carried: vec![B::ZERO; count * series.stride],
             terms: vec![0.0; series.stride],
             arrived: nothing.clone(),
             order: 0,
             unfinished: false,
-            beside: vec![B::zero(); count],
+            beside: vec![B::ZERO; count],
             tail: Tail::default(),
             added: nothing,
             worth: 0.0,
@@ -203,7 +203,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
     pub fn go_back(&mut self, t: f64) {
         for b in 0..self.error.len() {
             self.error[b] = self.at(b, 0.0);
-            self.added[b] = [B::zero(); 2];
+            self.added[b] = [B::ZERO; 2];
         }
         self.size = self.size_before;
         self.step.1 = 0.0;

@@ -1,6 +1,7 @@
 //! Formulas in t as functions of time, with their power series about any moment — eq. (11.9).
 
 use super::expansion::{MAX_TERMS, sine_cosine};
+use triad_linalg::largest_size;
 use triad_scene::expression::{Expression, ExpressionError, Function, Node};
 
 /// Moments of a run at which a formula is tried before it starts.
@@ -110,7 +111,7 @@ impl TimeFormula {
         self.wakes.clear();
         let moment = |k: u32| end * f64::from(k) / f64::from(TRIED);
         let values: Vec<f64> = (0..=TRIED).map(|k| expand(&self.root, moment(k), 1)[0]).collect();
-        let rounding = QUIET * values.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+        let rounding = QUIET * largest_size(&values);
         let (mut low, mut high, mut quiet) = (f64::INFINITY, f64::NEG_INFINITY, 0);
         for (k, value) in (0..).zip(values) {
             (low, high) = (low.min(value), high.max(value));

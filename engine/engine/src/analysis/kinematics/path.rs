@@ -18,6 +18,7 @@ use triad_dynamics::state;
 use triad_dynamics::system::index::SolverRow;
 use triad_dynamics::system::natural::NaturalCoordinates;
 use triad_dynamics::system::{Constraint, System};
+use triad_linalg::{largest_difference, largest_size};
 
 /// Tolerance of the series: as tight as their rounding allows, because it decides which branch is followed where two come near
 /// each other.
@@ -244,8 +245,7 @@ impl Path {
             .iter()
             .zip(&self.run.system().constraints)
             .map(|(joint, constraint)| {
-                let size =
-                    [joint.force, joint.moment].as_flattened().iter().fold(0.0f64, |a, x| a.max(x.abs()));
+                let size = largest_size([joint.force, joint.moment].as_flattened());
                 (constraint.driver, constraint.name.clone(), size)
             })
             .collect();
@@ -288,11 +288,6 @@ fn slope_weights(nodes: &[f64; NODES], t: f64) -> [f64; NODES] {
         });
         terms.sum()
     })
-}
-
-/// The largest difference between two lists of numbers.
-fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }
 
 /// A model with its joints and drivers alone: bodies of one mass and one inertia, no weight and no loads.

@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use schemars::JsonSchema;
 use serde::Serialize;
 use triad_dynamics::constraints::violation;
+use triad_linalg::largest_size;
 
 /// Part of the largest force by which forces may change in the frame of the motion.
 const CHANGED: f64 = 1e-6;
@@ -266,7 +267,7 @@ fn turned_momenta(alike: &DMatrix<f64>, momenta: &DVector<f64>) -> DMatrix<f64> 
 /// Whether joints and drivers allow the steady motion at the held position.
 fn fits(stage: &mut Stage) -> Result<(), AnalysisError> {
     stage.rest();
-    let fastest = stage.q_dot.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+    let fastest = largest_size(&stage.q_dot);
     let system = &stage.mechanism.system;
     let rates = violation::rates(system, &stage.mechanism.state);
     let worst = violation::worst(&rates).into_iter().next();

@@ -17,7 +17,7 @@ use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank;
 use triad_dynamics::constraints::tangent;
 use triad_dynamics::newton::{project_positions, project_velocities, rules};
-use triad_linalg::independent_rows;
+use triad_linalg::{independent_rows, largest_size};
 
 /// Iterations of one solution above which the chart is taken anew at the current state.
 const SLOW: usize = 9;
@@ -383,7 +383,7 @@ impl Chart {
         }
         let mut twists = tangent::twists(&mechanism.system, &mechanism.state, &mut mechanism.elimination);
         if twists.ncols() != f {
-            let speed = y[n..].iter().fold(0.0f64, |a, v| a.max(v.abs()));
+            let speed = largest_size(&y[n..]);
             if speed > 0.0 {
                 let step = AHEAD * mechanism.system.length / speed;
                 let mut ahead = y.to_vec();

@@ -3,7 +3,7 @@
 use super::tilt::Tilt;
 use nalgebra::DVector;
 use triad_dynamics::newton::Projected;
-use triad_linalg::larger;
+use triad_linalg::largest_difference;
 
 /// The state from which the search for the next one begins: the one that was found last.
 #[derive(Clone, Debug)]
@@ -66,6 +66,6 @@ impl Guess {
 
     /// How far its independent coordinates are from given ones.
     pub fn distance(&self, eta: &[f64]) -> f64 {
-        self.eta.iter().zip(eta).fold(0.0, |most, (a, b)| larger(most, (a - b).abs()))
+        largest_difference(self.eta.as_slice(), eta)
     }
 }

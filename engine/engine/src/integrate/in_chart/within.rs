@@ -175,7 +175,7 @@ impl OdeSystem for InCoordinates<'_> {
     /// Of all its mass, moving as fast as it does, and lifted.
     fn energy_of(&self, error: f64) -> f64 {
         let Mechanism { system, state, .. } = &*self.mechanism;
-        let mass: f64 = system.bodies.iter().map(|body| body.mass).sum();
+        let mass = system.model.mass();
         let speed = (2.0 * state.kinetic_energy(system) / mass).sqrt() + error;
         mass * (speed + system.model.gravity.norm() * system.length) * error
     }

@@ -24,7 +24,13 @@ impl ProgressMonitor {
         Self { window: WINDOW * islands.max(1) as u64, steps: 0, window_start: t, before: 0.0 }
     }
 
-    /// Forgets the window at hand: a step was taken back to time t.
+    /// A step was taken back to time t.
+    pub(super) fn take_back(&mut self, t: f64) {
+        self.steps = self.steps.saturating_sub(1);
+        self.window_start = self.window_start.min(t);
+    }
+
+    /// Forgets the window at hand: from time t on the motion is searched by short steps.
     pub(super) fn restart(&mut self, t: f64) {
         (self.steps, self.window_start, self.before) = (0, t, 0.0);
     }

@@ -2,7 +2,7 @@
 
 use super::{Column, Group, Outputs};
 use crate::run::Simulation;
-use crate::scene::GROUND;
+use crate::scene::{GROUND, OutputKind};
 use triad_dynamics::model::{BodyRef, DriverKind, LoadKind};
 
 /// Names of the components of a vector.
@@ -11,6 +11,18 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// That not all reactions are determined.
 pub(super) const SHARED: &str = "Rows of this mechanism depend on each other, so that its reactions are not all unique: triad reactions \
                                  tells which numbers are; the others may differ here from the smallest ones, which it shows.";
+
+/// The name of an element in its columns: with its kind where columns of one of the `others` have the same name.
+fn distinct<'a>(
+    run: &Simulation,
+    kind: &str,
+    name: &str,
+    others: [OutputKind; 3],
+    mut names: impl Iterator<Item = &'a str>,
+) -> String {
+    let chosen = run.model().settings.outputs.iter().any(|output| others.contains(&output.kind));
+    if chosen && names.any(|other| other == name) { format!("{kind}:{name}") } else { name.to_owned() }
+}
 
 impl Outputs {
     /// Adds the columns of a group.
@@ -62,8 +74,10 @@ impl Outputs {
             }
             Group::Load(load) => self.load(run, load),
             Group::Marker(marker) => {
-                let name = &model.markers[marker].name;
-                self.vectors(name, &[("p", "m"), ("v_p", "m/s")], "p: position of a marker; v_p: its velocity.");
+                let others = [OutputKind::Bodies, OutputKind::Frames, OutputKind::Accelerations];
+                let bodies = model.bodies.iter().map(|body| body.name.as_str());
+                let name = distinct(run, "marker", &model.markers[marker].name, others, bodies);
+                self.vectors(&name, &[("p", "m"), ("v_p", "m/s")], "p: position of a marker; v_p: its velocity.");
             }
             Group::Energy => self.column("energy".to_owned(), "J"),
             Group::Balance => self.balance(),
@@ -165,7 +179,9 @@ impl Outputs {
 
     fn load(&mut self, run: &Simulation, load: usize) {
         let load = &run.model().loads[load];
-        let name = &load.name;
+        let others = [OutputKind::Joints, OutputKind::Reactions, OutputKind::Drivers];
+        let rows = run.system().constraints.iter().map(|constraint| constraint.name.as_str());
+        let name = &distinct(run, "load", &load.name, others, rows);
         match load.kind {
             LoadKind::Force { .. } => self.vectors(name, &[("f", "N")], "f of a load: force in the world."),
             LoadKind::Moment { .. } => {

@@ -6,6 +6,7 @@
 //! distance. Where branches do not meet, it lies between two of them, and the constraints are open by what keeps them apart.
 
 use crate::integrate::{Track, hermite};
+use triad_linalg::{largest_difference, largest_size};
 
 /// Distance of the two states from the dip, as an angle, rad: its fourth power is rounding.
 const BESIDE: f64 = 5e-4;
@@ -145,8 +146,8 @@ impl Examiner {
             let state = &self.beside[0][side];
             &state[state.len() / 2..]
         });
-        let speed = there.iter().fold(0.0f64, |most, v| most.max(v.abs()));
-        let off = path.iter().zip(there).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+        let speed = largest_size(there);
+        let off = largest_difference(path, there);
         off <= FOLLOWED.1 * speed
     }
 

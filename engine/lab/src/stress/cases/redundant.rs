@@ -5,6 +5,7 @@ use crate::stress::case::{StressCase, StressOutcome, StressVerdict, TrialMethod}
 use crate::stress::oracle::OneDegree;
 use crate::stress::trial::Trial;
 use crate::stress::trial::must_be_refused;
+use triad_linalg::larger_or_nan;
 use triad_scene::{AxisRows, Driver, JointKind, Motion, Scene, VectorMotion};
 
 /// The family in reports, and what `--case` may name.
@@ -185,7 +186,7 @@ fn twice(method: &TrialMethod, _: bool) -> StressOutcome {
                 return f64::NAN;
             }
             let (a, b) = (run.frame(), other.frame());
-            (0..2).map(|k| distance(&a, k, b.bodies[k].position)).fold(0.0, crate::stress::trial::larger)
+            (0..2).map(|k| distance(&a, k, b.bodies[k].position)).fold(0.0, larger_or_nan)
         })
         .conserving((1e-7, 1e-3))
         .run()

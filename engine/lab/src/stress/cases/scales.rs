@@ -5,6 +5,7 @@ use crate::stress::build::{DOWN, GROUND, body, distance, joint, pin, rod, scene}
 use crate::stress::case::{StressCase, StressOutcome, StressVerdict, TrialMethod};
 use crate::stress::oracle::OneDegree;
 use crate::stress::trial::Trial;
+use triad_linalg::larger_or_nan;
 use triad_scene::{Inertia, JointKind};
 
 /// The family in reports, and what `--case` may name.
@@ -106,8 +107,7 @@ fn chain(ratio: f64, method: &TrialMethod) -> StressOutcome {
                 return f64::NAN;
             }
             let (a, b) = (run.frame(), other.frame());
-            (0..10).map(|k| distance(&a, k, b.bodies[k].position)).fold(0.0, crate::stress::trial::larger)
-                / 10.0
+            (0..10).map(|k| distance(&a, k, b.bodies[k].position)).fold(0.0, larger_or_nan) / 10.0
         })
         .conserving((1e-6, 1e-2))
         .run()
@@ -155,7 +155,7 @@ fn all_sizes(method: &TrialMethod, _: bool) -> StressOutcome {
                 let (angle, _) = exact.at((1.5 * 9.81 / length).sqrt() * run.time());
                 let center =
                     [i as f64 + 0.5 * length * libm::sin(angle), -0.5 * length * libm::cos(angle), 0.0];
-                error = crate::stress::trial::larger(error, distance(&frame, i, center) / length);
+                error = larger_or_nan(error, distance(&frame, i, center) / length);
             }
             error
         })
@@ -224,10 +224,7 @@ fn triangle(method: &TrialMethod, _: bool) -> StressOutcome {
         .against("angular momentum of each free body, in the world", (1e-7, 1e-3), move |run| {
             let now = momentum(run);
             let start = start.get_or_insert_with(|| now.clone());
-            now.iter()
-                .zip(start.iter())
-                .map(|(a, b)| (a - b).norm() / b.norm())
-                .fold(0.0, crate::stress::trial::larger)
+            now.iter().zip(start.iter()).map(|(a, b)| (a - b).norm() / b.norm()).fold(0.0, larger_or_nan)
         })
         .conserving((1e-7, 1e-3))
         .run()

@@ -5,6 +5,7 @@ use crate::stress::case::{StressCase, StressOutcome, StressVerdict, TrialMethod}
 use crate::stress::oracle::OneDegree;
 use crate::stress::trial::Trial;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use triad_linalg::larger_or_nan;
 use triad_scene::{JointKind, Scene};
 
 /// The family in reports, and what `--case` may name.
@@ -111,7 +112,7 @@ fn against_pendulum(
                         [i as f64 + 0.5 + libm::sin(angle), libm::cos(angle), 0.0],
                     )
                 }))
-                .fold(0.0, crate::stress::trial::larger)
+                .fold(0.0, larger_or_nan)
         })
         .sampled(100)
         .conserving((1e-6, 1e-3))
@@ -182,7 +183,7 @@ fn unequal(method: &TrialMethod, _: bool) -> StressOutcome {
                     ];
                     distance(&frame, arms.len() + 1 + k, center)
                 })
-                .fold(0.0, crate::stress::trial::larger)
+                .fold(0.0, larger_or_nan)
         })
         .conserving((1e-6, 1e-3))
         .run()

@@ -1,10 +1,11 @@
 //! What holds for every mechanism, however it was drawn.
 
-use crate::stress::trial::{kinetic_energy, larger};
+use crate::stress::trial::kinetic_energy;
 use crate::stress::{StressOutcome, StressVerdict, TrialMethod};
 use nalgebra::Vector3;
 use triad_engine::EngineError;
 use triad_engine::run::Simulation;
+use triad_linalg::larger_or_nan;
 use triad_scene::{ConstraintMethod, Coordinates, IntegratorKind, Load, LoadFrame, Scene};
 
 /// Steps of a random mechanism of half a second.
@@ -57,7 +58,7 @@ struct Findings {
 
 impl Findings {
     fn measure(&mut self, what: &str, value: f64, (good, poor): (f64, f64)) {
-        self.error = larger(self.error, value);
+        self.error = larger_or_nan(self.error, value);
         if value <= good {
             return;
         }
@@ -90,10 +91,11 @@ fn watched(
         (outcome.steps, outcome.rejected) = (summary.steps, summary.rejected);
         (outcome.evaluations, outcome.reached) = (summary.evaluations, run.reached());
         result?;
-        drift = larger(drift, summary.energy_drift.abs());
+        drift = larger_or_nan(drift, summary.energy_drift.abs());
         // Structures that cannot move have no kinetic energy, but springs whose force times a tolerance is energy too.
-        kinetic = larger(larger(kinetic, kinetic_energy(&run)), STANDING * summary.energy.abs());
-        violation = larger(violation, run.violation().relative);
+        kinetic =
+            larger_or_nan(larger_or_nan(kinetic, kinetic_energy(&run)), STANDING * summary.energy.abs());
+        violation = larger_or_nan(violation, run.violation().relative);
     }
     outcome.energy_drift = Some(drift / kinetic);
     outcome.violation = Some(violation);
@@ -133,7 +135,7 @@ fn compare(scene: &Scene, run: &Simulation, findings: &mut Findings) {
                     let apart = |x: [f64; 3], y: [f64; 3]| (Vector3::from(x) - Vector3::from(y)).norm();
                     apart(a.position, b.position).max(apart(a.u, b.u)).max(apart(a.v, b.v))
                 });
-                findings.measure(what, distance.fold(0.0, larger), (GOOD, POOR));
+                findings.measure(what, distance.fold(0.0, larger_or_nan), (GOOD, POOR));
             }
             Err(error) => {
                 findings.refused(&error);
@@ -161,7 +163,7 @@ fn back_in_time(scene: &Scene, run: &Simulation, findings: &mut Findings) {
     back.set_step_limit(STEPS);
     match back.advance_to(back.duration()) {
         Ok(()) => {
-            let apart = back.q().iter().zip(start.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+            let apart = back.q().iter().zip(start.q()).map(|(a, b)| (a - b).abs()).fold(0.0, larger_or_nan);
             findings.measure("the start after the way back", apart, (GOOD, POOR));
         }
         Err(error) => {

@@ -57,6 +57,10 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     type Moment = LaneVector<L>;
     type Directors = [LaneVector<L>; 3];
     type Mobility = [LaneVector<L>; 3];
+    const ZERO: Self::Natural = zero();
+    const NO_DIRECTORS: Self::Directors = [[[0.0; L]; 3]; 3];
+    const NO_MOBILITY: Self::Mobility = [[[0.0; L]; 3]; 3];
+    const NO_MOMENT: Self::Moment = [[0.0; L]; 3];
     const DIRECTIONS: usize = 3;
     const TWIST: usize = 6;
     const STRIPS: usize = 3;
@@ -100,27 +104,12 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
         self.slots.clone()
     }
 
-    #[inline(always)]
-    fn zero() -> Natural<L> {
-        zero()
-    }
-
     fn at_rest() -> Natural<L> {
         let mut q = zero();
         for k in 0..3 {
             q[1 + k][k] = [1.0; L];
         }
         q
-    }
-
-    #[inline(always)]
-    fn no_directors() -> [LaneVector<L>; 3] {
-        [[[0.0; L]; 3]; 3]
-    }
-
-    #[inline(always)]
-    fn no_mobility() -> [LaneVector<L>; 3] {
-        [[[0.0; L]; 3]; 3]
     }
 
     #[inline(always)]
@@ -310,11 +299,6 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn no_moment() -> LaneVector<L> {
-        [[0.0; L]; 3]
-    }
-
-    #[inline(always)]
     fn position_correction(&self, q: &Natural<L>) -> [Lane<L>; 6] {
         let mut gamma = symmetric(q, q);
         for (k, entry) in gamma.iter_mut().enumerate() {
@@ -421,7 +405,7 @@ impl<const L: usize> Bodies<L> for Bundle<L> {
     }
 
     #[inline(always)]
-    fn lent(&self) -> &Lane<L> {
+    fn delta(&self) -> &Lane<L> {
         &self.regularizing_inertia
     }
 

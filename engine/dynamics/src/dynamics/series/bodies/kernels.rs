@@ -61,6 +61,14 @@ pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     type Directors: Copy + Debug;
     /// C⁻¹ s̃ of a feature's arm s.
     type Mobility: Copy + Debug;
+    /// Zero.
+    const ZERO: Self::Natural;
+    /// Zero.
+    const NO_DIRECTORS: Self::Directors;
+    /// Zero.
+    const NO_MOBILITY: Self::Mobility;
+    /// Zero.
+    const NO_MOMENT: Self::Moment;
     /// Directions in which a point can move.
     const DIRECTIONS: usize;
     /// Components of a twist.
@@ -77,14 +85,8 @@ pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     /// Their features.
     fn slots(&self) -> Range<usize>;
 
-    /// Zero.
-    fn zero() -> Self::Natural;
     /// Bodies at rest.
     fn at_rest() -> Self::Natural;
-    /// Zero.
-    fn no_directors() -> Self::Directors;
-    /// Zero.
-    fn no_mobility() -> Self::Mobility;
     /// All components.
     fn lanes(x: &Self::Natural) -> &[Lane<L>];
     /// All components.
@@ -162,8 +164,8 @@ pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     fn scale_and_add(&mut self, own: f64, other: &Self, factor: f64);
     /// The squares of what the moments of the solution are made of: Σ |P_k|² + |Ī_k ë_k|².
     fn moments_squared(&self) -> Lane<L>;
-    /// δ, the inertia lent to each body.
-    fn lent(&self) -> &Lane<L>;
+    /// δ of each body: its regularizing inertia.
+    fn delta(&self) -> &Lane<L>;
     /// ω̇ of the solution.
     fn omega(&self) -> &Self::Moment;
     /// All components.
@@ -190,8 +192,6 @@ pub trait Bodies<const L: usize>: Measures<L> + Clone + Debug + Sized {
     fn alone<S: Simd>(&mut self, _: S, _q: &[Self::Natural], _n: usize) -> Option<Self::Natural> {
         None
     }
-    /// No moment.
-    fn no_moment() -> Self::Moment;
     /// Right-hand sides that correct positions.
     fn position_correction(&self, q: &Self::Natural) -> Self::Rigid;
     /// Right-hand sides that correct velocities.

@@ -8,7 +8,7 @@ use super::pair::{Pair, each};
 use super::planar::Planar;
 use super::single::Single;
 use crate::dynamics::series::lanes::{Lane, Natural, add_dot, dot, plus, times};
-use triad_linalg::{fma, larger};
+use triad_linalg::{fma, larger, larger_or_nan};
 
 /// Work of a constant generalized force.
 #[inline(always)]
@@ -37,7 +37,7 @@ impl<const L: usize> Measures<L> for Bundle<L> {
             let unit = if k < 3 { 1.0 } else { 0.0 };
             for (largest, twice) in largest.iter_mut().zip(twice) {
                 let off = (0.5 * twice - unit).abs();
-                *largest = if off.is_nan() { off } else { larger(*largest, off) };
+                *largest = larger_or_nan(*largest, off);
             }
         }
         largest

@@ -69,6 +69,10 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     type Moment = Lane<L>;
     type Directors = Pair<L>;
     type Mobility = Pair<L>;
+    const ZERO: Self::Natural = [[[0.0; L]; 2]; 2];
+    const NO_DIRECTORS: Self::Directors = [[0.0; L]; 2];
+    const NO_MOBILITY: Self::Mobility = [[0.0; L]; 2];
+    const NO_MOMENT: Self::Moment = [0.0; L];
     const DIRECTIONS: usize = 2;
     const TWIST: usize = 3;
     const STRIPS: usize = 1;
@@ -124,23 +128,8 @@ impl<const L: usize> Bodies<L> for Planar<L> {
         self.slots.clone()
     }
 
-    #[inline(always)]
-    fn zero() -> [Pair<L>; 2] {
-        [[[0.0; L]; 2]; 2]
-    }
-
     fn at_rest() -> [Pair<L>; 2] {
         [[[0.0; L]; 2], [[1.0; L], [0.0; L]]]
-    }
-
-    #[inline(always)]
-    fn no_directors() -> Pair<L> {
-        [[0.0; L]; 2]
-    }
-
-    #[inline(always)]
-    fn no_mobility() -> Pair<L> {
-        [[0.0; L]; 2]
     }
 
     #[inline(always)]
@@ -281,7 +270,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
 
     #[inline(always)]
     fn clear_force(&mut self) {
-        self.force = Self::zero();
+        self.force = Self::ZERO;
         self.moment = [0.0; L];
     }
 
@@ -355,7 +344,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     }
 
     #[inline(always)]
-    fn lent(&self) -> &Lane<L> {
+    fn delta(&self) -> &Lane<L> {
         &self.regularizing_inertia
     }
 
@@ -381,7 +370,7 @@ impl<const L: usize> Bodies<L> for Planar<L> {
 
     #[inline(always)]
     fn rest(&mut self) {
-        self.solution = Self::zero();
+        self.solution = Self::ZERO;
         self.omega = [0.0; L];
         self.particular = [[0.0; L]; 2];
         self.clear_force();
@@ -433,11 +422,6 @@ impl<const L: usize> Bodies<L> for Planar<L> {
     fn alone<S: Simd>(&mut self, _: S, q: &[[Pair<L>; 2]], n: usize) -> Option<[Pair<L>; 2]> {
         let fall = if n == 0 { self.fall } else { [[0.0; L]; 2] };
         Some([fall, self.alone.expand(q, n)])
-    }
-
-    #[inline(always)]
-    fn no_moment() -> Lane<L> {
-        [0.0; L]
     }
 
     #[inline(always)]

@@ -53,6 +53,10 @@ impl Bodies<1> for Single {
     type Moment = Components;
     type Directors = [Components; 3];
     type Mobility = [LaneVector<1>; 3];
+    const ZERO: Self::Natural = [ZERO; 4];
+    const NO_DIRECTORS: Self::Directors = [ZERO; 3];
+    const NO_MOBILITY: Self::Mobility = Bundle::NO_MOBILITY;
+    const NO_MOMENT: Self::Moment = ZERO;
     const DIRECTIONS: usize = 3;
     const TWIST: usize = 6;
     const STRIPS: usize = 3;
@@ -91,23 +95,8 @@ impl Bodies<1> for Single {
         self.plain.slots()
     }
 
-    #[inline(always)]
-    fn zero() -> [Components; 4] {
-        [ZERO; 4]
-    }
-
     fn at_rest() -> [Components; 4] {
         Bundle::at_rest().map(|x| widened(&x))
-    }
-
-    #[inline(always)]
-    fn no_directors() -> [Components; 3] {
-        [ZERO; 3]
-    }
-
-    #[inline(always)]
-    fn no_mobility() -> [LaneVector<1>; 3] {
-        Bundle::no_mobility()
     }
 
     #[inline(always)]
@@ -238,11 +227,6 @@ impl Bodies<1> for Single {
     }
 
     #[inline(always)]
-    fn no_moment() -> Components {
-        ZERO
-    }
-
-    #[inline(always)]
     fn position_correction(&self, q: &[Components; 4]) -> [Components; 2] {
         packed(&self.plain.position_correction(&narrowed(q)))
     }
@@ -360,7 +344,7 @@ impl Bodies<1> for Single {
     }
 
     #[inline(always)]
-    fn lent(&self) -> &Lane<1> {
+    fn delta(&self) -> &Lane<1> {
         &self.plain.regularizing_inertia
     }
 

@@ -31,7 +31,7 @@ pub(super) fn moved_both<const L: usize, B: Bodies<L>>(
 /// Value and derivative of a polynomial.
 #[inline(always)]
 pub(super) fn value<const L: usize, B: Bodies<L>>(coefficients: &[B::Natural], tau: f64) -> [B::Natural; 2] {
-    let nothing = [B::zero(); 2];
+    let nothing = [B::ZERO; 2];
     coefficients
         .iter()
         .rev()
@@ -161,7 +161,7 @@ fn curvature<const L: usize, B: Bodies<L>>(
     tau: f64,
     further: [f64; 2],
 ) -> B::Natural {
-    let mut second = B::zero();
+    let mut second = B::ZERO;
     let further = further.into_iter().chain(repeat(0.0));
     for ((k, c), further) in coefficients.iter().enumerate().skip(2).rev().zip(further) {
         let factor = (k * (k - 1)) as f64 + further;
@@ -182,7 +182,7 @@ fn local<const L: usize, B: Bodies<L>>(
     half: &B::Natural,
 ) -> [B::Natural; 2] {
     let missed = moved::<L, B>(second, -2.0, half);
-    by.map(|by| moved::<L, B>(&B::zero(), by, &missed))
+    by.map(|by| moved::<L, B>(&B::ZERO, by, &missed))
 }
 
 /// An error less what the last two coefficients, the last first, tell of those that are left out.
@@ -285,7 +285,7 @@ impl<const L: usize, B: Bodies<L>> WithSimd for Between<'_, L, B> {
         for ((out, here), there) in self.out.iter_mut().zip(self.here).zip(self.there) {
             *out = moved_both::<L, B>(here, -1.0, there);
             if self.s < 1.0 {
-                *out = moved_both::<L, B>(&[B::zero(); 2], 1.0 / self.s, out);
+                *out = moved_both::<L, B>(&[B::ZERO; 2], 1.0 / self.s, out);
             }
             size.raise::<L, B>(out);
         }

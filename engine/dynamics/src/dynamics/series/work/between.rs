@@ -1,6 +1,7 @@
 //! Work within a step as a polynomial through powers in it, where series of the power do not reach as far as those of the motion.
 
 use std::f64::consts::PI;
+use triad_linalg::largest_size;
 
 /// Intervals of Chebyshev's extreme points at first and at most: each doubling keeps those that are known.
 const FIRST: usize = 8;
@@ -50,12 +51,12 @@ impl WorkBetween {
             } else {
                 self.powers.extend((0..=count).map(|i| power_at(place(i))));
             }
-            let size = self.powers.iter().fold(0.0f64, |size, p| size.max(p.abs()));
+            let size = largest_size(&self.powers);
             if !self.powers.iter().all(|p| p.is_finite()) {
                 return;
             }
             self.transform();
-            let last = self.coefficients[count - 2..].iter().fold(0.0f64, |last, c| last.max(c.abs()));
+            let last = largest_size(&self.coefficients[count - 2..]);
             if count == MOST || last <= tolerance.max(ROUNDING) * size {
                 break;
             }
