@@ -4,7 +4,7 @@ use super::Simulation;
 use super::companion::{self, Lost};
 use super::state_view::{CachedState, sign};
 use crate::error::EngineError;
-use crate::reactions::report::{Convention, ReactionComponent, report};
+use crate::reactions::report::{Convention, ReactionComponent, ReactionReport, report};
 use crate::scene::{IntegratorKind, OutputKind};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -122,25 +122,25 @@ impl Simulation {
         })
     }
 
-    /// The same of reactions as [`Simulation::reactions`] tells them: about other points, and along axes that turn, their numbers have other
-    /// errors than in the world.
+    /// The same of reactions as [`Simulation::reactions`] has told them in a convention: about other points, and along axes that turn, their
+    /// numbers have other errors than in the world.
     ///
     /// # Errors
     ///
     /// [`EngineError::Uniqueness`] where it cannot be decided which of them are unique.
     pub fn reaction_errors_as_told(
         &self,
+        told: &ReactionReport,
         convention: Convention,
     ) -> Result<Option<ReactionErrors>, EngineError> {
         let (Some(mut errors), Some(better)) = (self.reaction_errors(), self.better()) else {
             return Ok(None);
         };
-        let here = self.reactions(convention)?;
         let there = report(&self.current.multipliers_of(better, self), convention)?;
         let off = |a: [ReactionComponent; 3], b: [ReactionComponent; 3]| {
             Vector3::from_fn(|k, _| a[k].value - b[k].value).norm()
         };
-        for (here, there) in here.reactions.iter().zip(&there.reactions) {
+        for (here, there) in told.reactions.iter().zip(&there.reactions) {
             errors.force = errors.force.max(off(here.force, there.force));
             errors.moment = errors.moment.max(off(here.moment, there.moment));
         }

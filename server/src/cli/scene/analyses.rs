@@ -125,7 +125,7 @@ pub(in crate::cli) fn reactions(
         return Err(EngineError::TimeOutside { time: at, from: 0.0, to: simulation.time() }.into());
     }
     let report = simulation.reactions(words.convention())?;
-    let worth = Worth::of(&simulation, words.convention())?;
+    let worth = Worth::of(&simulation, &report, words.convention())?;
     clock.lap("solve");
     if json {
         print_json(&Timed { answer: &Judged { report: &report, worth }, seconds: &clock });

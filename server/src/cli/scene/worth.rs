@@ -31,8 +31,12 @@ pub(super) struct Worth {
 
 impl Worth {
     /// At the present of a run, of reactions as they are told.
-    pub fn of(simulation: &Simulation, convention: Convention) -> Result<Self, EngineError> {
-        let reaction_errors = simulation.reaction_errors_as_told(convention)?;
+    pub fn of(
+        simulation: &Simulation,
+        told: &ReactionReport,
+        convention: Convention,
+    ) -> Result<Self, EngineError> {
+        let reaction_errors = simulation.reaction_errors_as_told(told, convention)?;
         let summary = simulation.summary();
         Ok(Self { reaction_errors, error_unknown_from: summary.error_unknown_from, doubts: summary.doubts })
     }
