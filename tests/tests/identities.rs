@@ -154,7 +154,7 @@ proptest! {
         prop_assert_eq!(dependent, once + system.constraints[joint].solver.len());
         let mut series = IslandSeries::in_space(&system.in_lengths(), 2, &[]);
         series.place(system, 0.0, &probe.y);
-        prop_assert_eq!(series.find_dependent(system.length, true).len(), dependent);
+        prop_assert_eq!(series.find_dependent(system.length, true, None).len(), dependent);
     }
 
     /// Joints do no work: dE/dt = 0 under gravity alone.

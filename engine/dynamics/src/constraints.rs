@@ -16,6 +16,8 @@ pub mod start;
 
 pub mod geometry;
 
+pub mod branch;
+
 pub mod rank;
 
 pub mod tangent;

@@ -72,6 +72,8 @@ pub struct State {
     targets: Vec<Jet<f64>>,
     /// When the last accepted step ended, s, where whole turns are counted by rates from there on.
     counted: Option<f64>,
+    /// The same before that step.
+    counted_before: Option<f64>,
     /// The time at which it was told which angles are expected, s.
     told: Option<f64>,
     stage: Stage,
@@ -94,6 +96,7 @@ impl State {
             curves: vec![[Vector3::zeros(); 3]; system.curves.len()],
             targets: vec![[0.0; 3]; system.targets.len()],
             counted: None,
+            counted_before: None,
             told: None,
             stage: Stage::Time,
         };
@@ -284,6 +287,8 @@ impl State {
     /// Counts whole turns of angles from the current state on, by rates: at the end of a step, however far the next one turns them. Where
     /// there are no velocities, as at the end of a step to where there is no state, as [`Self::commit_revolutions`].
     pub fn commit_motion(&mut self) {
+        self.counted_before = self.counted;
+        self.angles.iter_mut().for_each(AngleState::remember);
         if self.stage < Stage::Velocities {
             self.commit_revolutions();
             return;
@@ -292,6 +297,12 @@ impl State {
         for angle in &mut self.angles {
             angle.count_from(angle.value, angle.rate);
         }
+    }
+
+    /// Counts whole turns from where they were counted before the last [`Self::commit_motion`]: its step is taken back.
+    pub fn take_back_motion(&mut self) {
+        self.counted = self.counted_before;
+        self.angles.iter_mut().for_each(AngleState::count_back);
     }
 
     /// Counts whole turns of angles from the given values on, rad.

@@ -22,6 +22,8 @@ pub mod load;
 
 mod breaks;
 
+mod driven;
+
 pub mod passing;
 
 pub mod contact;

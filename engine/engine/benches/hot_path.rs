@@ -43,7 +43,7 @@ fn parts(criterion: &mut Criterion) {
         };
         let mut series = IslandSeries::in_space(&mechanism.system, 2, &[]);
         series.place(&mechanism.system, 0.0, &y);
-        series.find_dependent(mechanism.system.length, false);
+        series.find_dependent(mechanism.system.length, false, None);
         group("factorization", &mut || series.linearize());
         group("evaluation", &mut || series.evaluate());
         group("projection", &mut || {

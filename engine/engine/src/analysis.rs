@@ -115,10 +115,10 @@ pub enum AnalysisError {
         /// The moment about the axis, N m.
         moment: f64,
     },
-    /// Drivers that start in a position where branches of the motion meet.
+    /// Drivers that start in a position where branches of the motion meet, with velocities of none.
     #[error(
         "the start is a singular position of the driven mechanism, where the rows of {} depend on others: several branches of \
-         the motion begin there, and the drivers do not say which is meant",
+         the motion begin there, and the velocities do not say which is meant",
         quoted(joints)
     )]
     SingularStart {
@@ -222,7 +222,8 @@ impl AnalysisError {
                  or run the scene forward in time."
             }
             Self::SingularStart { .. } => {
-                "Start a little before or after that position, on the branch that is meant: it is passed on its smooth branch."
+                "Give the bodies the velocities of the branch that is meant, or start a little before that position: it is passed on its smooth \
+                 branch."
             }
             Self::Unreachable { .. } => {
                 "Let the driver turn back before that time, change lengths, drive another joint, or end the analysis before."

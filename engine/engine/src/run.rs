@@ -363,6 +363,7 @@ impl Simulation {
     fn left_constraints(&mut self, error: ConstraintError) -> EngineError {
         let last = self.integrator.last();
         let (start, steps) = (last.t - last.h, last.steps.accepted.saturating_sub(1));
+        self.mechanism.state.take_back_motion();
         let last = self.stop_at_last_good(start, steps);
         EngineError::from(error).after(last)
     }

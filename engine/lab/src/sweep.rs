@@ -39,6 +39,9 @@ pub struct SweepRun {
 pub struct Reached {
     /// Time at the end, s: earlier than the scene's where an event stops the run.
     pub time: f64,
+    /// Estimated error of that time where an event stopped the run, s. What changes at a rate is off by as much as it changes in it besides:
+    /// errors of outputs are those at a given time.
+    pub time_error: Option<f64>,
     /// The chosen outputs there, in the order of the columns.
     pub outputs: Vec<f64>,
     /// Evaluations of the accelerations.
@@ -182,6 +185,8 @@ impl<W: Watch> SharedParts<'_, W> {
         let summary = run.summary();
         let (evaluations, doubts) = (summary.evaluations, summary.doubts.len());
         let notes = run.notes().to_vec();
-        Some(Ok(Reached { time: run.time(), outputs, evaluations, doubts, notes }))
+        let stopped = run.events().last().filter(|event| event.stop && event.time == run.time());
+        let time_error = stopped.and_then(|event| event.error);
+        Some(Ok(Reached { time: run.time(), time_error, outputs, evaluations, doubts, notes }))
     }
 }

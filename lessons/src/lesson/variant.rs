@@ -172,7 +172,7 @@ pub(super) fn starts(scene: &serde_json::Value) -> Result<(), DrawRefused> {
     let scene = Scene::from_json(&scene.to_string())?;
     let simulation = Simulation::new(&scene)?;
     let rank = simulation.rank();
-    if rank.at_start < rank.rank { Err(DrawRefused::Singular) } else { Ok(()) }
+    if rank.lost_at_start() > 0 { Err(DrawRefused::Singular) } else { Ok(()) }
 }
 
 /// Whether every answer is worth asking for, and differs from every misconception by more than the tolerance.

@@ -2232,6 +2232,12 @@ export interface components {
             damping_ratio: number;
             /**
              * Format: double
+             * @description Estimated error of λ = growth + 2π i frequency, 1/s: how far it moves with the position, by what that may be off, and with the
+             *     differences of which the linear equations are made. `None` where it drifts, and where it is not known.
+             */
+            error: number | null;
+            /**
+             * Format: double
              * @description Frequency, Hz.
              */
             frequency: number;

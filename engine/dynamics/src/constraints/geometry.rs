@@ -6,7 +6,7 @@
 
 use crate::constraints::violation;
 use crate::dynamics::elimination::{Elimination, ProjectableState};
-use crate::newton::{DEPENDENT, move_away};
+use crate::newton::{DEPENDENT, move_away, project_positions, rules};
 use crate::state::State;
 use crate::system::System;
 use crate::system::index::{ConstraintId, IncidenceId, SolverRow};
@@ -33,12 +33,19 @@ const SEED: u64 = 14;
 pub struct Rank {
     /// Rank of the joint rows that the solver keeps.
     pub rank: usize,
-    /// The same exactly at the start: less where that is a singular position.
-    pub at_start: usize,
+    /// The solver rows that depend on others exactly at the start: more than there are elsewhere where that is a singular position.
+    pub dependent_at_start: Vec<SolverRow>,
     /// The solver rows that depend on others.
     pub dependent: Vec<SolverRow>,
     /// The joint that opens most where it holds what others hold but not exactly, and by what part of the motion that they leave free.
     pub inexact: Option<(ConstraintId, f64)>,
+}
+
+impl Rank {
+    /// How many rows lose their hold at the start, a singular position if some do.
+    pub fn lost_at_start(&self) -> usize {
+        self.dependent_at_start.len().saturating_sub(self.dependent.len())
+    }
 }
 
 /// A system measured in lengths, with its rows at one position.
@@ -97,23 +104,54 @@ impl Geometry {
     pub fn analyze(&mut self, state: &mut State, q: &[f64], wanted: &dyn Fn() -> bool) -> Rank {
         state.set_positions(&self.system, q);
         self.place_while(state, wanted);
-        let lost = self.dependent.len();
+        let dependent_at_start = self.dependent.clone();
         // Rows that are independent somewhere are so nearly everywhere.
-        if lost > 0 && wanted() {
-            let Self { system, elimination, .. } = self;
-            let (mut q, mut q_dot) = (q.to_vec(), vec![0.0; q.len()]);
-            let length = system.length;
-            let mut on = ProjectableState { system, state, elimination, q: &mut q, q_dot: &mut q_dot };
-            move_away(&mut on, length);
-            self.place_while(state, wanted);
+        if !dependent_at_start.is_empty() && wanted() {
+            self.look_beside(state, q, wanted);
+            self.look_where_drivers_lead(state, q, wanted);
         }
         let (rows, inexact) = (self.system.solver_rows, if wanted() { self.inexact() } else { None });
         Rank {
             rank: rows - self.dependent.len(),
-            at_start: rows - lost,
+            dependent_at_start,
             dependent: self.dependent.clone(),
             inexact,
         }
+    }
+
+    /// Takes the rows a little away from the positions q of a state, along a motion that joints and drivers allow at its time.
+    fn look_beside(&mut self, state: &mut State, q: &[f64], wanted: &dyn Fn() -> bool) {
+        let Self { system, elimination, .. } = self;
+        let (mut q, mut q_dot) = (q.to_vec(), vec![0.0; q.len()]);
+        let length = system.length;
+        let mut on = ProjectableState { system, state, elimination, q: &mut q, q_dot: &mut q_dot };
+        move_away(&mut on, length);
+        self.place_while(state, wanted);
+    }
+
+    /// The same from where drivers have led the mechanism, if fewer rows depend on others there: what they hold fast at one moment may be
+    /// singular at that moment alone.
+    fn look_where_drivers_lead(&mut self, state: &mut State, q: &[f64], wanted: &dyn Fn() -> bool) {
+        let time = state.time();
+        if self.dependent.is_empty() {
+            return;
+        }
+        let Some(later) = self.system.driven_away(time) else { return };
+        let mut there = self.clone();
+        let Self { system, elimination, .. } = &mut there;
+        let (mut q, mut q_dot) = (q.to_vec(), vec![0.0; q.len()]);
+        state.set_time(system, later);
+        state.set_positions(system, &q);
+        let mut on = ProjectableState { system, state, elimination, q: &mut q, q_dot: &mut q_dot };
+        let found = project_positions(&mut on, &rules::ASSEMBLY_POSITIONS, system.length);
+        if found.has_converged() && violation::is_closed(system, on.state) {
+            there.place_while(state, wanted);
+            there.look_beside(state, &q, wanted);
+            if there.dependent.len() < self.dependent.len() {
+                *self = there;
+            }
+        }
+        state.set_time(&self.system, time);
     }
 
     /// The dependent row that opens most in a motion that the others allow, if that is more than rounding.
@@ -174,6 +212,12 @@ impl Geometry {
             scale_turns(&mut basis, 1.0 / length);
         }
         basis
+    }
+
+    /// γ' of the solver rows at a state: what A ξ̇ has to be there.
+    pub fn needed_accelerations(&mut self, state: &State) -> &[f64] {
+        let Self { system, elimination, .. } = self;
+        elimination.needed_accelerations(system, state)
     }
 
     /// Multipliers n of the solver rows that do nothing, Aᵀ n = 0, as columns: one for each dependent row.

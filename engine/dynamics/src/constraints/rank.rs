@@ -24,7 +24,7 @@ pub fn analyze(system: &System, state: &mut State, q: &[f64]) -> Rank {
 pub fn analyze_while(system: &System, state: &mut State, q: &[f64], wanted: &dyn Fn() -> bool) -> Rank {
     if is_tree(&system.model) {
         let rank = system.solver_rows;
-        return Rank { rank, at_start: rank, dependent: Vec::new(), inexact: None };
+        return Rank { rank, dependent_at_start: Vec::new(), dependent: Vec::new(), inexact: None };
     }
     Geometry::new(system).analyze(state, q, wanted)
 }

@@ -233,6 +233,14 @@ impl Elimination {
         self.set_gamma(system, state, true, &correction);
     }
 
+    /// γ' of the solver rows at a state: what A ξ̇ has to be there.
+    pub fn needed_accelerations(&mut self, system: &System, state: &State) -> &[f64] {
+        self.clear_forces();
+        self.linearize(system, state);
+        self.set_right_side(system, state, (0.0, 0.0));
+        &self.gamma
+    }
+
     /// What [`Elimination::accelerate`] has found last, at the state that it was given.
     pub fn last_accelerations<'a>(&'a self, system: &'a System, state: &'a State) -> Accelerations<'a> {
         Accelerations::new(self.multipliers(system, state), &self.bodies)

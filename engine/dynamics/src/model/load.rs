@@ -105,6 +105,16 @@ pub enum LoadKind {
 }
 
 impl ModelLoad {
+    /// Whether what it prescribes depends on the time.
+    pub fn changes(&self) -> bool {
+        match &self.kind {
+            LoadKind::Force { force: curve, .. } | LoadKind::Moment { moment: curve, .. } => curve.changes(),
+            LoadKind::Spring { law, .. } | LoadKind::Torsion { law, .. } | LoadKind::Slider { law, .. } => {
+                law.drive.as_ref().is_some_and(Curve::changes)
+            }
+        }
+    }
+
     /// Checks a load.
     pub(super) fn new(load: &Load, reader: &ModelReader) -> Result<Self, ModelError> {
         let kind = match load {

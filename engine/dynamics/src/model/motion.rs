@@ -5,7 +5,7 @@ mod expansion;
 mod formula;
 
 pub use expansion::{MAX_TERMS, sine_cosine};
-pub use formula::{TRIED, TimeFormula, TimeFormulaError};
+pub use formula::{TRIED, TimeFormula, TimeFormulaError, first_where};
 
 use crate::scene::{Motion, VectorMotion};
 use nalgebra::{Matrix3, Vector3};
@@ -70,6 +70,19 @@ impl Curve {
     #[must_use]
     pub fn held(&self, t: f64) -> Self {
         Self::constant(self.at(t)[0])
+    }
+
+    /// Whether it depends on the time.
+    pub fn changes(&self) -> bool {
+        let some = |coefficients: &[f64]| coefficients.iter().any(|c| *c != 0.0);
+        match self {
+            Self::Polynomial(coefficients) => coefficients.get(1..).is_some_and(some),
+            Self::Harmonic { amplitude, frequency, .. } => amplitude * frequency != 0.0,
+            Self::Pieces { pieces, .. } => {
+                pieces.iter().any(|piece| some(&piece[1..]) || piece[0] != pieces[0][0])
+            }
+            Self::Formula(formula) => formula.changes(),
+        }
     }
 
     /// The same curve times a constant.
@@ -191,6 +204,16 @@ impl VectorCurve {
     pub fn held(&self, t: f64) -> Self {
         let [x, y, z] = self.at(t)[0].into();
         Self::Components([x, y, z].map(Curve::constant))
+    }
+
+    /// Whether it depends on the time.
+    pub fn changes(&self) -> bool {
+        match self {
+            Self::Components(components) | Self::Rotated(_, components) => {
+                components.iter().any(Curve::changes)
+            }
+            Self::Turning { across, angle, .. } => *across != Vector3::zeros() && angle.changes(),
+        }
     }
 
     /// The same vector with its components in another frame, v' = rotation · v.

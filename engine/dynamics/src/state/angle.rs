@@ -18,6 +18,8 @@ pub struct AngleState {
     pub reference: f64,
     /// θ̇ there, where whole turns are counted by it.
     pub reference_rate: f64,
+    /// Both of them before that step.
+    pub before: [f64; 2],
     /// θ at the state to less than half a turn, as far as that is known before its directors are.
     pub expected: f64,
     /// Whether another has told what is expected.
@@ -55,6 +57,17 @@ impl AngleState {
     pub fn count_from(&mut self, angle: f64, rate: f64) {
         (self.reference, self.reference_rate) = (angle, rate);
         (self.expected, self.told) = (angle, false);
+    }
+
+    /// Remembers from where it is counted, for a step that is taken back.
+    pub fn remember(&mut self) {
+        self.before = [self.reference, self.reference_rate];
+    }
+
+    /// Counts from where that was.
+    pub fn count_back(&mut self) {
+        let [angle, rate] = self.before;
+        self.count_from(angle, rate);
     }
 
     /// Where the rate of the last accepted step leads in the time since then, s.

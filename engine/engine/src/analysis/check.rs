@@ -103,8 +103,8 @@ pub fn check_while(scene: &Scene, wanted: &Wanted) -> Result<CheckReport, Analys
     let assembled = start::assemble(model, &still);
     // What ended early says nothing of the scene.
     wanted.check()?;
-    let (mut mechanism, begin, mut notes) = assembled.map_err(EngineError::from)?;
-    let rank = start::analyze_rank(&mut mechanism, &begin, &mut notes, &still);
+    let (mut mechanism, mut begin, mut notes) = assembled.map_err(EngineError::from)?;
+    let rank = start::analyze_rank(&mut mechanism, &mut begin, &mut notes, &still);
     wanted.check()?;
     let rank = rank.map_err(EngineError::from)?;
     Ok(report(scene, &Simulation::assembled(mechanism, begin, rank, notes)?))

@@ -163,14 +163,17 @@ impl Held {
         unbalanced.fold(0.0, f64::max)
     }
 
-    /// How far from rest the position is, m: along each motion what is left, or the rounding of the forces on bodies, over its stiffness.
-    fn error(&self, Stiffness { along, motions, .. }: &Stiffness) -> Option<f64> {
+    /// How far from rest the position is along each motion, m: what is left, or the rounding of the forces on bodies, over its stiffness.
+    fn off(&self, Stiffness { along, motions, .. }: &Stiffness) -> DVector<f64> {
         let rounded = SEVERAL * f64::EPSILON * self.largest;
-        let left = motions.tr_mul(&self.along);
-        let off =
-            left.iter().zip(along.iter()).map(|(left, stiffness)| left.abs().max(rounded) / stiffness.abs());
-        let squares: f64 = off.map(|off| off * off).sum();
-        Some(squares.sqrt()).filter(|error| error.is_finite())
+        motions
+            .tr_mul(&self.along)
+            .zip_map(along, |left, stiffness| left.abs().max(rounded) / stiffness.abs())
+    }
+
+    /// The same of all motions together.
+    fn error(&self, stiffness: &Stiffness) -> Option<f64> {
+        Some(self.off(stiffness).norm()).filter(|error| error.is_finite())
     }
 
     /// Work of the forces for each unit of a motion, of which the part counts that the joints allow here.
@@ -186,6 +189,17 @@ pub(super) struct Found {
     held: Held,
     stiffness: Stiffness,
     iterations: usize,
+}
+
+impl Found {
+    /// A twist of the bodies by which the position may be off. Motions that the forces do not hold are not in it.
+    pub(super) fn off(&self) -> DVector<f64> {
+        let Self { held, stiffness, .. } = self;
+        let none = SOFTEST * stiffness.along.amax();
+        let felt = |off: f64, along: f64| if along.abs() > none { off } else { 0.0 };
+        let off = held.off(stiffness).zip_map(&stiffness.along, felt);
+        &held.basis * (&stiffness.motions * off)
+    }
 }
 
 /// Moves a stage to equilibrium.
@@ -261,7 +275,7 @@ fn told(
     let Stability { stable, note } =
         stability::judge(stage, &held.basis, &stiffness, &held.carried(&stiffness.motions));
     stage.rest();
-    let mut notes: Vec<String> = note.into_iter().collect();
+    let mut notes: Vec<String> = note.into_iter().chain(stage.varying_loads_note()).collect();
     let off = held.off_by(&stiffness);
     if off > TOLD * stage.mechanism.system.length {
         notes.push(format!(

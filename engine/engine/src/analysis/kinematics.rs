@@ -181,16 +181,15 @@ fn state(path: &mut Path, masses: &Masses, convention: Convention) -> Result<Kin
 
 /// The bodies whose spin about themselves is all that the drivers leave free.
 fn idle_bodies(scene: &Scene, path: &mut Path) -> Result<Vec<Idle>, AnalysisError> {
+    if let Some(joints) = path.undecided_at_start() {
+        return Err(AnalysisError::SingularStart { joints });
+    }
     let freedoms = path.freedoms();
     if freedoms == 0 {
         return Ok(Vec::new());
     }
     if let Some(idle) = Idle::of_all(&mut path.stage, freedoms) {
         return Ok(idle);
-    }
-    let joints = path.dependent_at_start();
-    if !joints.is_empty() {
-        return Err(AnalysisError::SingularStart { joints });
     }
     Err(AnalysisError::Free { freedoms, body: freest(scene) })
 }

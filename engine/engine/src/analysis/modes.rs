@@ -12,14 +12,14 @@ use super::inertia::{self, Inertia, TurnsWithoutInertia};
 use super::{AnalysisError, Stage, Wanted, equilibrium};
 use crate::scene::Scene;
 use mode::{CLEARLY, mode};
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::{Complex, ComplexField, DMatrix, DVector};
 use pencil::{Eigen, Pencil, solve};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use steady::Unfelt;
 use triad_dynamics::model::LoadKind;
 use triad_dynamics::state::BodyFrame;
-use triad_linalg::{least_squares, null_and_rest};
+use triad_linalg::{larger_or_nan, least_squares, null_and_rest};
 
 /// Damping or asymmetry below this part of the stiffness is none.
 const NEGLIGIBLE: f64 = 1e-9;
@@ -106,29 +106,21 @@ pub fn modes_while(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<
         stage.hold_drivers();
     }
     short_springs::leave_out_held(&mut stage)?;
-    let steady = match about {
-        ModesAbout::Equilibrium => {
-            equilibrium::find(&mut stage)?;
-            None
-        }
-        ModesAbout::Start => None,
-        ModesAbout::Steady => Some(steady::find(&mut stage)?),
-    };
-    let (steady, unfelt) = steady.unzip();
-    if steady.is_some() && moving && stage.flow.is_rest() {
+    let position = Position::find(&mut stage, about)?;
+    if position.steady.is_some() && moving && stage.flow.is_rest() {
         notes.push(NEAREST_IS_REST.to_owned());
     }
     stage.rest();
     short_springs::leave_out_jumping(&mut stage, &mut notes);
     let mut basis = stage.tangent()?;
     let freedoms = basis.ncols();
-    notes.extend(stage.singular_note());
-    if let Some(unfelt) = &unfelt {
-        basis = unfelt.across(&stage, basis);
-    }
+    let singular = stage.singular_note();
+    let is_singular = singular.is_some();
+    notes.extend(singular);
     if freedoms == 0 {
         notes.push("joints and drivers leave no freedom: nothing can vibrate".to_owned());
     }
+    basis = position.across(&stage, basis);
     stage.rest();
     let left = basis.tr_mul(&stage.forces()).amax();
     if left > (UNBALANCED * stage.largest_force()).max(equilibrium::rounding(&stage)) {
@@ -137,25 +129,97 @@ pub fn modes_while(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<
              equations leave out"
         ));
     }
-    let small = SmallMotions::new(&mut stage, &basis, unfelt.as_ref());
+    let unfelt = position.unfelt.as_ref();
+    let small = SmallMotions::new(&mut stage, &basis, unfelt);
     notes.extend(small.told_of_held());
     notes.extend(small.told_of_hidden(&stage));
     let length = stage.mechanism.system.length;
-    let mut modes: Vec<Mode> = small
-        .eigen(&stage)?
+    let found = small.eigen(&stage)?;
+    let without_inertia = inertia::turning_bodies(&stage, &small.left_out);
+    let bodies = stage.frames();
+    let beside = position.beside(&mut stage)?.filter(|beside| beside.len() == found.len());
+    if beside.is_none() && !is_singular {
+        notes.push(MODES_OF_ROUNDING.to_owned());
+    }
+    let mut modes: Vec<Mode> = found
         .iter()
-        .map(|eigen| mode(eigen.value, &small.moved(&eigen.vector), length))
+        .map(|eigen| Mode {
+            error: beside.as_ref().and_then(|beside| error(eigen, beside)),
+            ..mode(eigen.value, &small.moved(&eigen.vector), length)
+        })
         .collect();
-    let translations = unfelt.map_or_else(|| DMatrix::zeros(basis.nrows(), 0), |unfelt| unfelt.translations);
+    let translations =
+        unfelt.map_or_else(|| DMatrix::zeros(basis.nrows(), 0), |unfelt| unfelt.translations.clone());
     modes.extend(
         columns([&small.drifts(), &translations])
             .column_iter()
             .map(|motion| mode(Complex::new(0.0, 0.0), &motion.map(|x| Complex::new(x, 0.0)), length)),
     );
     modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency).then(a.growth.total_cmp(&b.growth)));
-    let without_inertia = inertia::turning_bodies(&stage, &small.left_out);
     let left_out = small.left_out.ncols();
-    Ok(Modes { freedoms, modes, left_out, without_inertia, steady, bodies: stage.frames(), notes })
+    Ok(Modes { freedoms, modes, left_out, without_inertia, steady: position.steady, bodies, notes })
+}
+
+/// Where the equations are linearized.
+struct Position {
+    steady: Option<SteadyMotion>,
+    unfelt: Option<Unfelt>,
+    /// A twist of the bodies by which the position may be off.
+    off: DVector<f64>,
+}
+
+impl Position {
+    /// Finds it, and holds the stage there.
+    fn find(stage: &mut Stage, about: ModesAbout) -> Result<Self, AnalysisError> {
+        Ok(match about {
+            ModesAbout::Equilibrium => {
+                let off = equilibrium::find(stage)?.off();
+                Self { steady: None, unfelt: None, off }
+            }
+            ModesAbout::Start => Self {
+                steady: None,
+                unfelt: None,
+                off: DVector::zeros(6 * stage.mechanism.system.bodies.len()),
+            },
+            ModesAbout::Steady => {
+                let steady::Found { told, unfelt, off } = steady::find(stage)?;
+                Self { steady: Some(told), unfelt: Some(unfelt), off }
+            }
+        })
+    }
+
+    /// The part of a basis of small motions that leaves the whole where it is.
+    fn across(&self, stage: &Stage, basis: DMatrix<f64>) -> DMatrix<f64> {
+        match &self.unfelt {
+            Some(unfelt) => unfelt.across(stage, basis),
+            None => basis,
+        }
+    }
+
+    /// The eigenvalues where the stage is after it has been disturbed by what the position may be off, if they are found.
+    fn beside(&self, stage: &mut Stage) -> Result<Option<Vec<Complex<f64>>>, AnalysisError> {
+        stage.disturb(&self.off);
+        stage.rest();
+        let basis = stage.tangent()?;
+        let basis = self.across(stage, basis);
+        let small = SmallMotions::new(stage, &basis, self.unfelt.as_ref());
+        match small.eigen(stage) {
+            Ok(found) => Ok(Some(found.iter().map(|eigen| eigen.value).collect())),
+            Err(AnalysisError::NoModes) => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+}
+
+/// That which modes there are is not certain.
+const MODES_OF_ROUNDING: &str =
+    "how many modes there are depends on rounding: some motion has next to no inertia or stiffness";
+
+/// Error of an eigenvalue, 1/s: how far it is from the nearest of those found beside, and its own rounding.
+fn error(eigen: &Eigen, beside: &[Complex<f64>]) -> Option<f64> {
+    let nearest = beside.iter().map(|other| (other - eigen.value).modulus()).min_by(f64::total_cmp)?;
+    // Not `max`, which would leave out what is not a number.
+    Some(larger_or_nan(nearest, eigen.rounding)).filter(|error| f64::is_finite(*error))
 }
 
 /// What of the start linear equations about a position leave out.
@@ -174,6 +238,7 @@ fn left_out_of_start(stage: &Stage, about: ModesAbout) -> Vec<String> {
                 .to_owned(),
         );
     }
+    notes.extend(stage.varying_loads_note());
     notes
 }
 

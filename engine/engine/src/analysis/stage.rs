@@ -45,6 +45,8 @@ pub struct Stage {
     pub flow: Flow,
     /// The momenta of which the steady motion follows at each position, while it is looked for.
     pub momenta: Option<Momenta>,
+    /// Step of differences, in lengths of what they differ.
+    step: f64,
     /// What was corrected on the way to a consistent start.
     pub notes: Vec<String>,
     /// Whether what is computed of it is still wanted.
@@ -75,7 +77,8 @@ impl Stage {
         let q_dot = start.split_off(mechanism.system.coordinates);
         let geometry = Geometry::new(&mechanism.system);
         let (flow, momenta, wanted) = (Flow::default(), None, Wanted::default());
-        Ok(Self { mechanism, geometry, q: start, q_dot, time: 0.0, flow, momenta, notes, wanted })
+        let (time, step) = (0.0, STEP);
+        Ok(Self { mechanism, geometry, q: start, q_dot, time, flow, momenta, step, notes, wanted })
     }
 
     /// Has drivers stay as they are: a position of rest knows nothing of how they go on.
@@ -87,6 +90,20 @@ impl Stage {
         self.geometry = Geometry::new(&self.mechanism.system);
         let at = self.q.clone();
         self.put_back(&at, &turns);
+    }
+
+    /// That loads depend on the time, if some do: here they are as they are at one moment.
+    pub(super) fn varying_loads_note(&self) -> Option<String> {
+        let loads = &self.mechanism.system.model.loads;
+        let varying: Vec<String> =
+            loads.iter().filter(|load| load.changes()).map(|load| load.name.clone()).collect();
+        (!varying.is_empty()).then(|| {
+            format!(
+                "loads that change with time are taken as they are at t = {} s: {}",
+                self.time,
+                triad_dynamics::constraints::quoted(&varying)
+            )
+        })
     }
 
     /// Takes over the held position at rest, or in the steady motion.
@@ -176,7 +193,7 @@ impl Stage {
         }
         let rank = rank::analyze_while(system, state, &self.q, &|| self.wanted.is_still());
         self.rest();
-        let lost = rank.rank.saturating_sub(rank.at_start);
+        let lost = rank.lost_at_start();
         (lost > 0).then(|| {
             format!(
                 "the position is singular: {lost} rows lose their hold there, and branches of motion meet. The linear equations allow all that \
@@ -370,6 +387,12 @@ impl Stage {
         lengths.filter(|length| *length > NO_LENGTH * system.length).fold(system.length, f64::min)
     }
 
+    /// Moves by a small twist, and takes differences by other steps from then on: what changes by that is the error of what is computed.
+    pub fn disturb(&mut self, twist: &DVector<f64>) {
+        self.step = 0.5 * STEP;
+        self.assemble(self.moved(twist, 1.0));
+    }
+
     /// Change of something by a small motion, a twist of each body of any length; the stage is left beside its position.
     pub fn slope(
         &mut self,
@@ -381,7 +404,7 @@ impl Stage {
         let reach = (0..direction.len()).fold(0.0f64, |a, i| {
             a.max(if i % 6 >= 3 { length * direction[i].abs() } else { direction[i].abs() })
         });
-        let step = STEP * self.fineness() / reach.max(f64::MIN_POSITIVE);
+        let step = self.step * self.fineness() / reach.max(f64::MIN_POSITIVE);
         let mut at = |size: f64| {
             let q = self.moved(direction, size);
             self.place(&q);

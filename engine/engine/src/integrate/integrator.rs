@@ -113,12 +113,14 @@ impl Integrator {
 
     /// Takes the last step back as well, to search what lies ahead by shorter ones: no sign of a run that gets nowhere.
     pub fn take_back_to_search(&mut self, mechanism: &mut Mechanism) {
+        mechanism.state.take_back_motion();
         self.stepper.retreat(mechanism);
         self.progress.restart(self.last().t);
     }
 
     /// Takes the last step back, so that a shorter one can be taken instead.
     pub fn take_back(&mut self, mechanism: &mut Mechanism) {
+        mechanism.state.take_back_motion();
         self.stepper.retreat(mechanism);
         self.progress.take_back(self.last().t);
     }

@@ -94,6 +94,9 @@ impl Simulation {
     /// a second time, without the error of the state: with what was found for the state, if that is near enough. Where the two
     /// agree much better than the states do, twice more, without errors that are a little different: parts of it may cancel.
     pub fn reaction_errors(&self) -> Option<ReactionErrors> {
+        if self.is_at_singular_start() {
+            return None;
+        }
         let better = self.better()?;
         let [mut force, largest_force, mut moment, largest_moment] = self.compare_reactions(better);
         let part = self.unknown(SUSPICIOUS) * self.relative_error(better);
@@ -120,6 +123,12 @@ impl Simulation {
             moment,
             largest_moment: unless_rounding(largest_moment, length * largest_force),
         })
+    }
+
+    /// Whether rows lose their hold at the current state, the start: accelerations and reactions there are not those of the branch of the
+    /// motion, which higher derivatives of the rows alone determine.
+    pub fn is_at_singular_start(&self) -> bool {
+        self.time() <= 0.0 && self.rank().lost_at_start() > 0
     }
 
     /// The same of reactions as [`Simulation::reactions`] has told them in a convention: about other points, and along axes that turn, their

@@ -14,6 +14,7 @@ use crate::model::{CustomLoad, CustomLoadError, Model};
 use crate::scene::{ConstraintMethod, IntegratorKind, Scene};
 use std::sync::OnceLock;
 use triad_dynamics::constraints::ConstraintError;
+use triad_dynamics::constraints::branch::{self, Branch};
 use triad_dynamics::constraints::mechanism::Mechanism;
 use triad_dynamics::constraints::rank::{self, Rank};
 use triad_dynamics::constraints::start;
@@ -69,8 +70,8 @@ impl Simulation {
     ///
     /// [`EngineError::Constraint`] and [`EngineError::CustomLoad`].
     pub fn from_model(model: Model) -> Result<Self, EngineError> {
-        let (mut mechanism, start, mut notes) = assemble(model, &|| true)?;
-        let rank = analyze_rank(&mut mechanism, &start, &mut notes, &|| true)?;
+        let (mut mechanism, mut start, mut notes) = assemble(model, &|| true)?;
+        let rank = analyze_rank(&mut mechanism, &mut start, &mut notes, &|| true)?;
         Self::assembled(mechanism, start, rank, notes)
     }
 
@@ -151,23 +152,20 @@ pub(crate) fn assemble(
 }
 
 /// Finds the rank of a mechanism near its start, as long as that is wanted, and hands the dependent rows to its elimination; counters are
-/// reset.
+/// reset. The velocities of a singular start become those of a branch of the motion.
 pub(crate) fn analyze_rank(
     mechanism: &mut Mechanism,
-    start: &[f64],
+    start: &mut [f64],
     notes: &mut Notes,
     wanted: &dyn Fn() -> bool,
 ) -> Result<Rank, ConstraintError> {
     let Mechanism { system, state, elimination, .. } = mechanism;
-    let q = &start[..system.coordinates];
+    let (q, q_dot) = start.split_at_mut(system.coordinates);
     let rank = rank::analyze_while(system, state, q, wanted);
     rank::check_masses(system, state, elimination, q)?;
-    if rank.at_start < rank.rank {
-        notes.add_of_start(format!(
-            "the start is a singular position: {} rows lose their hold there, and several branches of motion may \
-             begin; without a velocity that chooses one, which of them is followed is not determined",
-            rank.rank - rank.at_start
-        ));
+    if rank.lost_at_start() > 0 {
+        notes.add_of_start(singular_start(&rank, branch::take(system, state, q, q_dot)));
+        notes.add_of_start(AT_SINGULAR_START.to_owned());
     }
     if let Some((joint, part)) = rank.inexact {
         notes.add(format!(
@@ -186,6 +184,31 @@ pub(crate) fn analyze_rank(
     elimination.set_dependent(&rank.dependent);
     elimination.counters = Counters::default();
     Ok(rank)
+}
+
+/// What equations of second order say of a singular start.
+const AT_SINGULAR_START: &str = "accelerations and forces at t = 0 are not those of the branch that is followed, which the equations do not \
+                                 determine there; from a little later on they are";
+
+/// That rows lose their hold at the start, and which branch of the motion begins there.
+fn singular_start(rank: &Rank, branch: Branch) -> String {
+    let lost = rank.lost_at_start();
+    let begins = format!(
+        "the start is a singular position: {lost} rows lose their hold there, and several branches of motion may begin"
+    );
+    match branch {
+        Branch::Given => format!(
+            "{begins}; without a velocity that chooses one, which of them is followed is not determined"
+        ),
+        Branch::Chosen(changed) => format!(
+            "{begins}; the velocities belonged to none, and were changed by up to {changed:.1e} to those of one that is near: give velocities \
+             that choose one"
+        ),
+        Branch::None => format!(
+            "{begins}; the velocities belong to none, and none was found near them: no motion goes on with them, and what follows is not \
+             to be trusted"
+        ),
+    }
 }
 
 /// Refuses custom loads that cannot be evaluated at the start, and loads that the integrator cannot that the scene asks for.

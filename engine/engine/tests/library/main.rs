@@ -25,6 +25,7 @@ mod pure;
 mod scales;
 mod scene_words;
 mod short_springs;
+mod singular_starts;
 mod small_motions;
 mod snapshots;
 mod solution;

@@ -354,3 +354,90 @@ fn a_soft_spring_that_a_stiff_one_hides_is_told() {
         assert!(right != told, "{stiffness:e}: {:?} {:?}", found.modes, found.notes);
     }
 }
+
+/// Two equal sliders, each on a spring and a damper, and a weak spring between them.
+fn coupled(damping: f64, between: f64) -> Modes {
+    let body = |name: &str, x: f64| json!({"name": name, "mass": 1.3, "inertia": {"principal": [0.1, 0.2, 0.25]}, "position": [x, 0, 0]});
+    let rail = |name: &str, body: &str, x: f64| json!({"name": name, "type": "prismatic", "body_i": "ground", "body_j": body, "point": [x, 0, 0], "axis": [1, 0, 0]});
+    let held = |name: &str, joint: &str| json!({"type": "slider", "name": name, "joint": joint, "stiffness": 5.0, "damping": damping});
+    let scene = json!({
+        "name": "coupled", "gravity": [0, -9.81, 0], "bodies": [body("a", 0.0), body("b", 2.0)],
+        "joints": [rail("A", "a", 0.0), rail("B", "b", 2.0)],
+        "loads": [held("left", "A"), held("right", "B"), {"type": "spring", "name": "between", "body_i": "a", "point_i": [0, 0, 0],
+            "body_j": "b", "point_j": [0, 0, 0], "stiffness": between}],
+    });
+    modes(&Scene::from_json(&scene.to_string()).unwrap(), ModesAbout::Equilibrium).unwrap()
+}
+
+/// How far eigenvalues are from λ² m + λ c + k = 0 for each stiffness, beside what is told.
+fn beside_told(found: &Modes, damping: f64, stiffnesses: [f64; 2]) {
+    assert_eq!(found.modes.len(), 2, "{:?}", found.modes);
+    for mode in &found.modes {
+        let roots = stiffnesses.map(|k| {
+            let (half, square) = (0.5 * damping / 1.3, k / 1.3);
+            (-half, (square - half * half).sqrt())
+        });
+        let off = |(re, im): (f64, f64)| libm::hypot(mode.growth - re, TAU * mode.frequency - im);
+        let (off, told) = (off(roots[0]).min(off(roots[1])), mode.error.unwrap());
+        assert!(off < 3.0 * told && told < 1e-11, "off {off:e}, told {told:e}");
+    }
+}
+
+/// Inverse iteration finds any two vectors of eigenvalues that are nearly equal: what it leaves of them is told apart in the small space
+/// that they span.
+#[test]
+fn nearly_equal_eigenvalues_are_told_apart_to_their_error() {
+    for between in [0.0, 1e-9, 1e-7, 1e-6, 1e-5, 1e-3] {
+        for damping in [0.0, 0.1, 0.3] {
+            beside_told(&coupled(damping, between), damping, [5.0, 5.0 + 2.0 * between]);
+        }
+    }
+}
+
+/// Two eigenvalues that meet in one vector are known to the root of rounding, and a position to what the softest motion leaves of it.
+#[test]
+fn errors_grow_where_eigenvalues_meet() {
+    let critical = 2.0 * (5.0f64 * 1.3).sqrt();
+    let found = coupled(critical, 1e-3);
+    let exact = -0.5 * critical / 1.3;
+    let off = |mode: &triad_engine::analysis::Mode| libm::hypot(mode.growth - exact, TAU * mode.frequency);
+    let met: Vec<_> = found.modes.iter().filter(|mode| off(mode) < 1e-4).collect();
+    assert!(!met.is_empty());
+    for mode in met {
+        let (off, told) = (off(mode), mode.error.unwrap());
+        assert!(off < 3.0 * told && told < 1e-6, "off {off:e}, told {told:e}");
+    }
+    let hanging = problem("rods");
+    let exact = [3.0 - 6.0 / 7f64.sqrt(), 3.0 + 6.0 / 7f64.sqrt()].map(|square| (square * G).sqrt());
+    for (mode, exact) in hanging.modes.iter().zip(exact) {
+        let (off, told) = ((TAU * mode.frequency - exact).abs(), mode.error.unwrap());
+        assert!(off < 3.0 * told && told < 1e-10, "off {off:e}, told {told:e}");
+    }
+}
+
+#[test]
+fn loads_that_change_with_time_are_taken_as_they_are_at_the_start_and_told() {
+    let scene = |force: serde_json::Value| {
+        let scene = json!({
+            "name": "pushed", "bodies": [{"name": "a", "mass": 1, "inertia": {"principal": [0.1, 0.2, 0.25]}}],
+            "joints": [{"name": "rail", "type": "prismatic", "body_i": "ground", "body_j": "a", "point": [0, 0, 0], "axis": [1, 0, 0]}],
+            "loads": [{"type": "slider", "name": "spring", "joint": "rail", "stiffness": 5.0}, {"type": "force", "name": "push", "body": "a",
+                "force": force}],
+        });
+        Scene::from_json(&scene.to_string()).unwrap()
+    };
+    let waves = scene(
+        json!({"kind": "components", "x": {"kind": "harmonic", "mean": 1.0, "amplitude": 2.0, "frequency": 3.0, "phase": 0.0},
+        "y": {"kind": "constant", "value": 0.0}, "z": {"kind": "constant", "value": 0.0}}),
+    );
+    let (still, rest) =
+        (scene(json!([1.0, 0.0, 0.0])), |scene: &Scene| triad_engine::analysis::equilibrium(scene).unwrap());
+    let told = |notes: &[String]| {
+        notes.iter().any(|note| note.contains("change with time") && note.contains("\"push\""))
+    };
+    let (moving, fixed) = (rest(&waves), rest(&still));
+    same(&[moving.bodies[0].position[0], fixed.bodies[0].position[0]], &[0.2, 0.2], 1e-12);
+    assert!(told(&moving.notes) && !told(&fixed.notes));
+    assert!(told(&modes(&waves, ModesAbout::Equilibrium).unwrap().notes));
+    assert!(!told(&modes(&still, ModesAbout::Equilibrium).unwrap().notes));
+}

@@ -138,7 +138,7 @@ fn order_zero_is_an_evaluation_of_the_accelerations() {
         let system = simulation.system();
         let mut measured = IslandSeries::in_space(&system.in_lengths(), 2, &[]);
         measured.place(system, simulation.time(), &y);
-        let dependent = measured.find_dependent(system.length, redundant);
+        let dependent = measured.find_dependent(system.length, redundant, None);
         let mut series = IslandSeries::in_space(system, 2, &[]);
         series.place(system, simulation.time(), &y);
         series.leave_out(&dependent);

@@ -202,9 +202,7 @@ impl SweepPlan {
                 Values::Grid { from, to, count } => {
                     let at = rest % count.max(1);
                     rest /= count.max(1);
-                    // Both ends exactly.
-                    let part = if count > 1 { at as f64 / (count - 1) as f64 } else { 0.0 };
-                    from * (1.0 - part) + to * part
+                    grid_point(from, to, at, count.saturating_sub(1))
                 }
                 Values::Uniform { from, to } => self.draw(index, place).between(from, to),
                 Values::Normal { mean, deviation } => mean + deviation * normal(&mut self.draw(index, place)),
@@ -219,6 +217,15 @@ impl SweepPlan {
         let mut seeds = Random::new(self.seed);
         let mut run = Random::new(seeds.bits() ^ index as u64);
         Random::new(run.bits() ^ (place as u64).rotate_left(32))
+    }
+}
+
+/// Point `at` of those that divide a range into parts: both ends exactly, and whole numbers and tenths where they are meant.
+fn grid_point(from: f64, to: f64, at: usize, parts: usize) -> f64 {
+    match at {
+        0 => from,
+        _ if at >= parts => to,
+        _ => (from * (parts - at) as f64 + to * at as f64) / parts as f64,
     }
 }
 

@@ -267,6 +267,9 @@ fn told(run: &SweepRun) -> Value {
     match &run.result {
         Ok(end) => {
             told["time"] = json!(end.time);
+            if let Some(error) = end.time_error {
+                told["time_error"] = json!(error);
+            }
             told["outputs"] = json!(end.outputs);
             told["evaluations"] = json!(end.evaluations);
             told["doubts"] = json!(end.doubts);
@@ -279,13 +282,15 @@ fn told(run: &SweepRun) -> Value {
     told
 }
 
-/// All runs as CSV: the varied numbers, the time at the end, the outputs there; of a failed run the code of its error.
+/// All runs as CSV: the varied numbers, the time at the end, with its error where an event chose it, the outputs there; of a failed run the
+/// code of its error.
 fn table(found: &Sweep) -> String {
+    let timed = found.runs.iter().any(|run| run.result.as_ref().is_ok_and(|end| end.time_error.is_some()));
     let mut out = String::from("run");
     for name in &found.varied {
         let _ = write!(out, ",{}", quoted(name));
     }
-    out.push_str(",time");
+    out.push_str(if timed { ",time,time_error" } else { ",time" });
     for column in &found.columns {
         let _ = write!(out, ",{}", quoted(&format!("{} [{}]", column.name, column.unit)));
     }
@@ -300,11 +305,16 @@ fn table(found: &Sweep) -> String {
         run.values.iter().for_each(|x| number(*x, &mut out));
         match &run.result {
             Ok(end) => {
-                std::iter::once(&end.time).chain(&end.outputs).for_each(|x| number(*x, &mut out));
+                number(end.time, &mut out);
+                if timed {
+                    number(end.time_error.unwrap_or(0.0), &mut out);
+                }
+                end.outputs.iter().for_each(|x| number(*x, &mut out));
                 let _ = writeln!(out, ",{},{},", end.evaluations, end.doubts);
             }
             Err(error) => {
-                let _ = writeln!(out, "{},,,{}", ",".repeat(found.columns.len() + 1), error.code());
+                let times = 1 + usize::from(timed);
+                let _ = writeln!(out, "{},,,{}", ",".repeat(found.columns.len() + times), error.code());
             }
         }
     }
@@ -369,6 +379,13 @@ fn errors(found: &Sweep) -> Option<String> {
         if let Some(errors) = of(name) {
             let _ = write!(line, ", {what} to {:.0e} {unit}", greatest(&errors));
         }
+    }
+    let times = found.runs.iter().filter_map(|run| run.result.as_ref().ok()?.time_error);
+    if let Some(greatest) = times.max_by(f64::total_cmp) {
+        let _ = write!(
+            line,
+            " at a given time; events that stop runs to {greatest:.0e} s, and outputs at them by what they change in that time besides"
+        );
     }
     line.push_str(": the greatest of all runs");
     if unknown > 0 {

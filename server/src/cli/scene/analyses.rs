@@ -198,20 +198,22 @@ fn print_modes(scene: &Scene, found: &analysis::Modes) {
 fn print_shapes(scene: &Scene, found: &analysis::Modes) {
     for (index, mode) in found.modes.iter().enumerate() {
         print_line(&format!(
-            "  mode {}: {:<10} {:>12} Hz, growth {:>12} 1/s, damping ratio {}",
+            "  mode {}: {:<10} {:>12} Hz, growth {:>12} 1/s, damping ratio {}{}",
             index + 1,
             mode.kind,
             digits(mode.frequency),
             digits(mode.growth),
-            digits(mode.damping_ratio)
+            digits(mode.damping_ratio),
+            mode.error.map_or_else(String::new, |error| format!("; λ right to about {error:.0e} 1/s"))
         ));
+        let decayed = if mode.growth == 0.0 { "" } else { ", but for growth and decay," };
         for (body, motion) in scene.bodies.iter().zip(&mode.shape) {
             let later = [motion.translation_later, motion.rotation_later];
             let later = if later.as_flattened().iter().all(|x| x.abs() < LEAST) {
                 String::new()
             } else {
                 format!(
-                    "; a quarter of a period later {} m, {} rad",
+                    "; a quarter of a period later{decayed} {} m, {} rad",
                     triple(later[0], 1.0),
                     triple(later[1], 1.0)
                 )

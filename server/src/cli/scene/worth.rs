@@ -29,6 +29,10 @@ pub(super) struct Worth {
     doubts: Vec<String>,
 }
 
+/// Why nothing is known of forces at a singular start.
+const OF_NO_BRANCH: &str = "rows lose their hold at this start: these forces are not those of the branch that the motion follows, which grow \
+                            beyond all bounds next to it unless what acts on the bodies happens to be in balance; look a little later";
+
 impl Worth {
     /// At the present of a run, of reactions as they are told.
     pub fn of(
@@ -37,7 +41,11 @@ impl Worth {
         convention: Convention,
     ) -> Result<Self, EngineError> {
         let reaction_errors = simulation.reaction_errors_as_told(told, convention)?;
-        let summary = simulation.summary();
+        let mut summary = simulation.summary();
+        if simulation.is_at_singular_start() {
+            summary.error_unknown_from = Some(simulation.time());
+            summary.doubts.push(OF_NO_BRANCH.to_owned());
+        }
         Ok(Self { reaction_errors, error_unknown_from: summary.error_unknown_from, doubts: summary.doubts })
     }
 

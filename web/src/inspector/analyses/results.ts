@@ -41,6 +41,8 @@ export interface Mode {
   frequency: number;
   growth: number;
   damping_ratio: number;
+  /** Estimated error of the eigenvalue, 1/s; null where the mode drifts, and where it is not known. */
+  error: number | null;
   shape: ModeMotion[];
 }
 
@@ -285,6 +287,7 @@ function modesTable(modes: Mode[], show: (mode: Mode) => void): HTMLElement {
       h("td", { class: "number" }, mode.frequency > 0 ? num(1 / mode.frequency, 5) : "–"),
       h("td", { class: "number" }, num(mode.growth, 4)),
       h("td", { class: "number" }, num(mode.damping_ratio, 4)),
+      h("td", { class: "number" }, mode.error === null ? "–" : num(mode.error, 1)),
       h("td", null, button),
     );
   });
@@ -301,6 +304,7 @@ function modesHead(): HTMLElement {
     [t("Period"), "s"],
     [t("Growth"), "1/s"],
     [t("Damping ratio"), ""],
+    [t("Error of λ"), "1/s"],
   ];
   return h(
     "thead",

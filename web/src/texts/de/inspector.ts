@@ -67,6 +67,7 @@ export const inspector = {
   Period: "Periode",
   Growth: "Wachstum",
   "Damping ratio": "Dämpfungsgrad",
+  "Error of λ": "Fehler von λ",
   Mode: "Eigenform",
   Picture: "Bild",
   "Centre of mass and its velocity, in the world frame":

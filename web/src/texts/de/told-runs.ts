@@ -108,6 +108,16 @@ export const toldOfRuns: Record<string, string> = {
     "Gelenk „{joint}“: {given} {unit} sind für den Anfang gegeben, aber alles Gegebene zusammen lässt {found}",
   "the start is a singular position: {n} rows lose their hold there, and several branches of motion may begin; without a velocity that chooses one, which of them is followed is not determined":
     "Der Anfang ist eine singuläre Lage: {n} Zeilen verlieren dort ihren Halt, und mehrere Zweige der Bewegung können beginnen; ohne eine Geschwindigkeit, die einen wählt, ist nicht bestimmt, welchem gefolgt wird",
+  "the start is a singular position: {n} rows lose their hold there, and several branches of motion may begin; the velocities belonged to none, and were changed by up to {changed} to those of one that is near: give velocities that choose one":
+    "Der Anfang ist eine singuläre Lage: {n} Zeilen verlieren dort ihren Halt, und mehrere Zweige der Bewegung können beginnen; die Geschwindigkeiten gehörten zu keinem und wurden um bis zu {changed} zu denen eines nahen geändert: gib Geschwindigkeiten, die einen wählen",
+  "the start is a singular position: {n} rows lose their hold there, and several branches of motion may begin; the velocities belong to none, and none was found near them: no motion goes on with them, and what follows is not to be trusted":
+    "Der Anfang ist eine singuläre Lage: {n} Zeilen verlieren dort ihren Halt, und mehrere Zweige der Bewegung können beginnen; die Geschwindigkeiten gehören zu keinem, und in ihrer Nähe wurde keiner gefunden: Keine Bewegung geht mit ihnen weiter, und was folgt, ist nicht zu glauben",
+  "loads that change with time are taken as they are at t = {t} s: {loads}":
+    "Lasten, die sich mit der Zeit ändern, gelten, wie sie bei t = {t} s sind: {loads}",
+  "how many modes there are depends on rounding: some motion has next to no inertia or stiffness":
+    "wie viele Eigenformen es gibt, hängt vom Runden ab: Eine Bewegung hat so gut wie keine Trägheit oder Steifigkeit",
+  "accelerations and forces at t = 0 are not those of the branch that is followed, which the equations do not determine there; from a little later on they are":
+    "Beschleunigungen und Kräfte bei t = 0 sind nicht die des Zweigs, dem gefolgt wird: Die Gleichungen bestimmen sie dort nicht; von ein wenig später an sind sie es",
   'joint "{joint}" holds what others hold, but not exactly: a motion opens it by {part} of its length, which is taken for rounding; give axes and points with all their digits, or a joint that leaves free what the others hold':
     "Gelenk „{joint}“ hält, was andere halten, aber nicht genau: Eine Bewegung öffnet es um {part} ihrer Länge, was als Rundung gilt; gib Achsen und Punkte mit allen Stellen, oder ein Gelenk, das frei lässt, was die anderen halten",
   "joints hold more than once what they hold: friction with a coefficient follows the smallest reactions that do, which need not be those of a real mechanism":
@@ -179,8 +189,8 @@ export const toldOfRuns: Record<string, string> = {
     "die Antriebe lassen Freiheitsgrade übrig ({freedoms}): Das ist keine Frage der Geometrie allein",
   'the drivers leave freedoms of motion ({freedoms}; "{body}" moves most in one): it is not a matter of geometry alone':
     "die Antriebe lassen Freiheitsgrade übrig ({freedoms}; am meisten bewegt sich „{body}“): Das ist keine Frage der Geometrie allein",
-  "the start is a singular position of the driven mechanism, where the rows of {joints} depend on others: several branches of the motion begin there, and the drivers do not say which is meant":
-    "der Anfang ist eine singuläre Lage des angetriebenen Mechanismus, in der die Zeilen von {joints} von anderen abhängen: Mehrere Zweige der Bewegung beginnen dort, und die Antriebe sagen nicht, welcher gemeint ist",
+  "the start is a singular position of the driven mechanism, where the rows of {joints} depend on others: several branches of the motion begin there, and the velocities do not say which is meant":
+    "der Anfang ist eine singuläre Lage des angetriebenen Mechanismus, in der die Zeilen von {joints} von anderen abhängen: Mehrere Zweige der Bewegung beginnen dort, und die Geschwindigkeiten sagen nicht, welcher gemeint ist",
   "at t = {time} s driver {drivers} comes to a dead point: the bodies would have to move infinitely fast there, and no position beyond it closes {joints}":
     "bei t = {time} s kommt Antrieb {drivers} in eine Totlage: Die Körper müssten sich dort unendlich schnell bewegen, und keine Lage dahinter schließt {joints}",
   "at t = {time} s the nearest position that meets the drivers is {moved} away from the one that the motion leads to: it may be another branch":
@@ -238,8 +248,8 @@ export const toldOfRuns: Record<string, string> = {
     "Untersuche einen Teil des Mechanismus als eigene Szene.",
   "Add a driver for each degree of freedom, or run the scene forward in time.":
     "Gib jedem Freiheitsgrad einen Antrieb, oder lass die Szene in der Zeit laufen.",
-  "Start a little before or after that position, on the branch that is meant: it is passed on its smooth branch.":
-    "Beginne ein wenig vor oder nach dieser Lage, auf dem Zweig, der gemeint ist: Sie wird auf ihrem glatten Zweig durchlaufen.",
+  "Give the bodies the velocities of the branch that is meant, or start a little before that position: it is passed on its smooth branch.":
+    "Gib den Körpern die Geschwindigkeiten des Zweigs, der gemeint ist, oder beginne ein wenig vor dieser Lage: Sie wird auf ihrem glatten Zweig durchfahren.",
   "Let the driver turn back before that time, change lengths, drive another joint, or end the analysis before.":
     "Lass den Antrieb vor dieser Zeit umkehren, ändere Längen, treib ein anderes Gelenk an, oder beende die Analyse vorher.",
   "Look whether the mechanism is next to a singular position there, and change a length.":

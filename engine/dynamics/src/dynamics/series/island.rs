@@ -73,9 +73,10 @@ impl IslandSeries {
         with!(&mut self.0, s => s.place(system, t, y));
     }
 
-    /// The rows that depend on others everywhere; `expected` tells that there are some. The state is left elsewhere.
-    pub fn find_dependent(&mut self, length: f64, expected: bool) -> Vec<SolverRow> {
-        with!(&mut self.0, s => s.find_dependent(length, expected))
+    /// The rows that depend on others everywhere; `expected` tells that there are some, `later` when drivers have moved the mechanism.
+    /// The state is left elsewhere.
+    pub fn find_dependent(&mut self, length: f64, expected: bool, later: Option<f64>) -> Vec<SolverRow> {
+        with!(&mut self.0, s => s.find_dependent(length, expected, later))
     }
 
     /// From now on leaves out rows that depend on others everywhere. S must be factored afterwards.

@@ -3,7 +3,7 @@
 use super::lanes::{largest, sum};
 use super::step::Part;
 use super::{Bodies, Series};
-use crate::newton::{Movable, Projectable, find_dependent_rows};
+use crate::newton::{Movable, Projectable, find_dependent_rows, project_positions, rules};
 use crate::system::index::SolverRow;
 use pulp::Simd;
 use triad_linalg::larger;
@@ -116,10 +116,21 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     }
 
     /// The rows that depend on others everywhere — eq. (8.1); the state is left elsewhere. Where some are expected, S is
-    /// regularized from the beginning.
-    pub fn find_dependent(&mut self, length: f64, expected: bool) -> Vec<SolverRow> {
+    /// regularized from the beginning. If fewer do where drivers have moved the mechanism `later`, those.
+    pub fn find_dependent(&mut self, length: f64, expected: bool, later: Option<f64>) -> Vec<SolverRow> {
         self.redundant = expected;
-        find_dependent_rows(self, length)
+        let start = self.state.clone();
+        let dependent = find_dependent_rows(self, length);
+        let Some(later) = later.filter(|_| !dependent.is_empty()) else { return dependent };
+        self.state = start;
+        self.set_time(later);
+        self.redundant = true;
+        let found = project_positions(self, &rules::ASSEMBLY_POSITIONS, length);
+        if !(found.has_converged() && self.is_finite()) {
+            return dependent;
+        }
+        let there = find_dependent_rows(self, length);
+        if there.len() < dependent.len() { there } else { dependent }
     }
 
     /// From now on leaves out rows that depend on others everywhere. S must be factored afterwards.

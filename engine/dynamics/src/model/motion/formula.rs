@@ -64,6 +64,11 @@ impl TimeFormula {
         }
     }
 
+    /// Whether it depends on t.
+    pub fn changes(&self) -> bool {
+        self.root.uses(0)
+    }
+
     /// Multiplies it by a constant.
     pub fn scale(&mut self, factor: f64) {
         let root = std::mem::replace(&mut self.root, Node::Number(factor));
@@ -132,7 +137,7 @@ impl TimeFormula {
 }
 
 /// The earliest time at which a statement that is false at `from` and true at `to` becomes true, by halving.
-fn first_where(mut from: f64, mut to: f64, holds: impl Fn(f64) -> bool) -> f64 {
+pub fn first_where(mut from: f64, mut to: f64, holds: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (from + to);
         if holds(middle) {

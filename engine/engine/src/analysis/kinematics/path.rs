@@ -10,10 +10,11 @@ use crate::error::EngineError;
 use crate::run::{EventOccurrence, Simulation, SingularConfiguration};
 use crate::scene::{ConstraintMethod, IntegratorKind, Scene};
 use nalgebra::Vector3;
+use triad_dynamics::constraints::branch::{self, Branch};
 use triad_dynamics::constraints::mechanism::Mechanism;
-use triad_dynamics::dynamics::elimination::{Elimination, ProjectableState};
+use triad_dynamics::dynamics::elimination::ProjectableState;
 use triad_dynamics::model::{ForceLaw, LoadKind, Model};
-use triad_dynamics::newton::{DEPENDENT, project_positions, project_velocities, rules};
+use triad_dynamics::newton::{project_positions, project_velocities, rules};
 use triad_dynamics::state;
 use triad_dynamics::system::index::SolverRow;
 use triad_dynamics::system::natural::NaturalCoordinates;
@@ -29,9 +30,7 @@ const MAX_CORRECTION: f64 = 1e-8;
 /// Least pivot product at which a position is corrected and the accelerations follow from the rows: the square of the angle
 /// to a singular position, where rounding of 1e-16 is multiplied by its inverse.
 const NEARLY_SINGULAR: f64 = 1e-7;
-/// How far from a start it is looked for its rank, rad of the fastest body.
-const AWAY: f64 = 0.03;
-/// Number of times, and their distance as a turn of the fastest body, rad, from whose velocities accelerations are taken at a
+/// Number of times, and their distance as a turn of the fastest body, rad, from whose velocities, or accelerations, those are taken at a
 /// singular position: the error is about the seventh power of it, and rounding divided by it.
 const NODES: usize = 7;
 const ASIDE: f64 = 0.02;
@@ -86,27 +85,23 @@ impl Path {
         (6 * self.run.system().bodies.len()).saturating_sub(self.run.rank().rank)
     }
 
-    /// The joints and drivers whose rows depend on others at the start, but no longer a little later: the start is a singular
-    /// position, where drivers leave open which branch is meant.
-    pub(super) fn dependent_at_start(&mut self) -> Vec<String> {
-        let Self { run, stage, .. } = self;
-        let (system, length) = (run.system(), run.system().length);
-        let pace = state::fastest(system, &[run.q(), run.q_dot()].concat());
-        let later = AWAY / pace.max(run.duration().recip());
-        stage.q = run.q().iter().zip(run.q_dot()).map(|(q, v)| q + later * v).collect();
-        let mut on = stage.projectable();
-        on.state.set_time(on.system, later);
-        on.state.set_positions(on.system, on.q);
-        project_positions(&mut on, &rules::ASSEMBLY_POSITIONS, length);
-        let there = Elimination::new(system).dependent_rows(system, on.state, DEPENDENT);
-        let lost: Vec<SolverRow> =
-            run.rank().dependent.iter().filter(|row| !there.contains(row)).copied().collect();
-        if there.len() >= run.rank().dependent.len() {
-            return Vec::new();
+    /// The joints and drivers whose rows depend on others at the start alone, if it is a singular position and its velocities do not say
+    /// which branch of the motion is meant.
+    pub(super) fn undecided_at_start(&mut self) -> Option<Vec<String>> {
+        let Self { run, stage: Stage { mechanism: Mechanism { system, state, .. }, q, q_dot, .. }, .. } =
+            self;
+        let rank = run.rank();
+        if rank.lost_at_start() == 0 {
+            return None;
         }
+        if branch::take(system, state, q, &mut q_dot.clone()) == Branch::Given {
+            return None;
+        }
+        let lost: Vec<&SolverRow> =
+            rank.dependent_at_start.iter().filter(|row| !rank.dependent.contains(row)).collect();
         let holds =
             |constraint: &&Constraint| lost.iter().any(|row| constraint.solver.contains(&row.index()));
-        system.constraints.iter().filter(holds).map(|constraint| constraint.name.clone()).collect()
+        Some(system.constraints.iter().filter(holds).map(|constraint| constraint.name.clone()).collect())
     }
 
     /// Steps so far.
@@ -203,7 +198,40 @@ impl Path {
         let found = self.stage.accelerate();
         self.accelerations = (0..bodies).map(|body| found.of_body(body)).collect();
         if self.singular {
-            self.accelerate_smoothly();
+            if self.run.is_at_singular_start() {
+                self.accelerate_from_later()?;
+            } else {
+                self.accelerate_smoothly();
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes the accelerations of a singular start from those at some times after it, where the rows determine them.
+    fn accelerate_from_later(&mut self) -> Result<(), AnalysisError> {
+        let (mut ahead, mut stage) = (self.run.clone(), self.stage.clone());
+        let pace = state::fastest(ahead.system(), &[ahead.q(), ahead.q_dot()].concat());
+        let apart = (ASIDE / pace).min(ahead.duration() / NODES as f64);
+        if pace == 0.0 || apart == 0.0 {
+            return Ok(());
+        }
+        self.accelerations.fill(NaturalCoordinates::default());
+        // The polynomial through values at 1, 2, …, n has at 0 their sum with binomial coefficients of changing signs.
+        let mut weight = -1.0;
+        for k in 1..=NODES {
+            weight *= -((NODES + 1 - k) as f64) / k as f64;
+            ahead.advance_to(apart * k as f64)?;
+            stage.time = ahead.time();
+            stage.q.copy_from_slice(ahead.q());
+            stage.q_dot.copy_from_slice(ahead.q_dot());
+            let found = stage.accelerate();
+            for (body, out) in self.accelerations.iter_mut().enumerate() {
+                let there = found.of_body(body);
+                out.r += there.r * weight;
+                for (out, e) in out.e.iter_mut().zip(there.e) {
+                    *out += e * weight;
+                }
+            }
         }
         Ok(())
     }

@@ -32,6 +32,9 @@ pub struct Mode {
     pub growth: f64,
     /// Part of critical damping.
     pub damping_ratio: f64,
+    /// Estimated error of λ = growth + 2π i frequency, 1/s: how far it moves with the position, by what that may be off, and with the
+    /// differences of which the linear equations are made. `None` where it drifts, and where it is not known.
+    pub error: Option<f64>,
     /// The motion of each body. The component of displacement (m, or rad times the mechanism's length) with the largest amplitude, the
     /// first of equal ones, is one now and zero a quarter of a period from now: this fixes size, sign and phase.
     pub shape: Vec<ModeShape>,
@@ -71,6 +74,7 @@ pub fn mode(value: Complex<f64>, motion: &DVector<Complex<f64>>, length: f64) ->
         frequency: value.im.abs() / std::f64::consts::TAU,
         growth: value.re,
         damping_ratio: if still { 0.0 } else { -value.re / value.modulus() },
+        error: None,
         shape: shape.collect(),
     }
 }

@@ -10,6 +10,8 @@ use triad_linalg::left_null_space;
 
 /// Sweeps of the QR algorithm before it is given up.
 const SWEEPS: usize = 100_000;
+/// Part of the terms of an eigenvalue's equation that is rounding.
+const ROUNDED: f64 = f64::EPSILON;
 /// Relative distance from an eigenvalue at which its vector is found by inverse iteration.
 const BESIDE: f64 = 1e-8;
 /// Solutions of one inverse iteration: each takes away all but 1e-8 of what does not belong.
@@ -18,12 +20,29 @@ const SOLUTIONS: usize = 3;
 const ROUNDS: usize = 3;
 /// Relative distance at which two eigenvalues count as one, with vectors of their own.
 const REPEATED: f64 = 1e-7;
+/// Ratio of singular values below which equal eigenvalues have fewer vectors than there are of them.
+const DEFECTIVE: f64 = 1e-6;
 /// Ratio of two eigenvalues' moduli up to which one half must not end between them.
 const EQUALLY_LARGE: f64 = 1.001;
 /// A correction of an eigenvalue by more than this part of it is a jump to another one, and not taken.
 const JUMP: f64 = 1e-2;
 
 type Vector = DVector<Complex<f64>>;
+type Matrix = DMatrix<Complex<f64>>;
+
+/// An eigenvalue λ with x and y, (λ² M + λ C + K) x = 0 and yᴴ (λ² M + λ C + K) = 0.
+struct Pair {
+    value: Complex<f64>,
+    x: Vector,
+    y: Vector,
+}
+
+impl Pair {
+    /// Whether a value counts as one with its own.
+    fn is_near(&self, value: Complex<f64>) -> bool {
+        (self.value - value).modulus() <= REPEATED * value.modulus()
+    }
+}
 
 /// One solution x e^(λt); of a pair of conjugates, the one with Im λ > 0.
 #[derive(Clone, Debug)]
@@ -32,6 +51,8 @@ pub struct Eigen {
     pub value: Complex<f64>,
     /// x, its largest entry real.
     pub vector: Vector,
+    /// What the rounding of the matrices and what x leaves of the equation may do to λ, 1/s.
+    pub rounding: f64,
 }
 
 /// λ² M + λ C + K.
@@ -64,32 +85,39 @@ impl Pencil {
         let eigen = SymmetricEigen::new((&stiffness + stiffness.transpose()) * 0.5);
         let pairs = eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter());
         pairs
-            .map(|(&square, column)| Eigen {
-                value: if square >= 0.0 {
+            .map(|(&square, column)| {
+                let value = if square >= 0.0 {
                     Complex::new(0.0, square.sqrt())
                 } else {
                     Complex::new((-square).sqrt(), 0.0)
-                },
-                vector: (&across * column).map(|x| Complex::new(x, 0.0)),
+                };
+                let vector = (&across * column).map(|x| Complex::new(x, 0.0));
+                Eigen { value, rounding: self.rounding(value, &vector, &vector), vector }
             })
             .collect()
     }
 
     /// With damping, or where K is not symmetric. Drifts are not among them. `None` where the QR algorithm fails.
     pub fn damped(&self) -> Option<Vec<Eigen>> {
-        let mut found: Vec<Eigen> = Vec::new();
+        let mut found: Vec<Pair> = Vec::new();
         for value in
             spectrum(&self.first_order())?.into_iter().map(real_twice).filter(|value| value.im >= 0.0)
         {
-            let known: Vec<&Vector> = found
-                .iter()
-                .filter(|other| (other.value - value).modulus() <= REPEATED * value.modulus())
-                .map(|other| &other.vector)
-                .collect();
-            let eigen = self.refined(value, &known);
-            found.push(eigen);
+            let known: Vec<&Pair> = found.iter().filter(|other| other.is_near(value)).collect();
+            let pair = self.refined(value, &known);
+            found.push(pair);
         }
-        Some(found)
+        let mut left: Vec<usize> = (0..found.len()).collect();
+        while let Some(first) = left.pop() {
+            let value = found[first].value;
+            let (near, others) = left.into_iter().partition(|&k| found[k].is_near(value));
+            left = others;
+            let group = [vec![first], near].concat();
+            if let Some(pairs) = self.separated(&group.iter().map(|&k| &found[k]).collect::<Vec<_>>()) {
+                group.into_iter().zip(pairs).for_each(|(k, pair)| found[k] = pair);
+            }
+        }
+        Some(found.into_iter().map(|pair| self.eigen(pair)).collect())
     }
 
     /// ẋ = A x of what drifts do not touch: positions across the drifts, then the velocities of motions with inertia.
@@ -128,17 +156,23 @@ impl Pencil {
         keep.tr_mul(&a) * keep
     }
 
-    /// (λ² M + λ C + K) x.
-    fn at(&self, value: Complex<f64>) -> DMatrix<Complex<f64>> {
+    /// 2 λ M + C.
+    fn slope_at(&self, value: Complex<f64>) -> Matrix {
+        let mut slope = self.damping.map(real);
+        (0..self.inertial).for_each(|i| slope[(i, i)] += value * 2.0);
+        slope
+    }
+
+    /// λ² M + λ C + K.
+    fn at(&self, value: Complex<f64>) -> Matrix {
         DMatrix::from_fn(self.stiffness.nrows(), self.stiffness.ncols(), |i, j| {
             let mass = if i == j && i < self.inertial { value * value } else { Complex::new(0.0, 0.0) };
             mass + value * self.damping[(i, j)] + self.stiffness[(i, j)]
         })
     }
 
-    /// The vector of an eigenvalue by inverse iteration, across the vectors of equal ones that are known, and the value by
-    /// Rayleigh's quotient.
-    fn refined(&self, guess: Complex<f64>, known: &[&Vector]) -> Eigen {
+    /// The vectors of an eigenvalue by inverse iteration, across those of equal ones that are known, and the value by Rayleigh's quotient.
+    fn refined(&self, guess: Complex<f64>, known: &[&Pair]) -> Pair {
         let n = self.stiffness.ncols();
         let mut value = guess;
         let mut x = Vector::from_fn(n, |i, _| Complex::new(1.0 + 0.3 * i as f64, 0.1));
@@ -148,8 +182,8 @@ impl Pencil {
             let (lu, adjoint) = (matrix.clone().lu(), matrix.adjoint().lu());
             for _ in 0..SOLUTIONS {
                 for other in known {
-                    let along = other.dotc(&x) / other.norm_squared();
-                    x -= *other * along;
+                    take_away(&mut x, &other.x);
+                    take_away(&mut y, &other.y);
                 }
                 solve_unit(&lu, &mut x);
                 solve_unit(&adjoint, &mut y);
@@ -163,12 +197,66 @@ impl Pencil {
         if guess.im == 0.0 {
             value.im = 0.0;
         }
-        let largest = x
-            .iter()
-            .copied()
-            .fold(Complex::new(0.0, 0.0), |a, b| if b.modulus() > a.modulus() { b } else { a });
+        Pair { value, x, y }
+    }
+
+    /// Eigenvalues that are nearly equal, of whose vectors inverse iteration finds any that span the same space: from the small pencil in
+    /// that space. `None` of one alone, and where there are fewer vectors than eigenvalues.
+    fn separated(&self, group: &[&Pair]) -> Option<Vec<Pair>> {
+        let count = group.len();
+        if count < 2 || count > self.stiffness.ncols() {
+            return None;
+        }
+        let center = group.iter().map(|pair| pair.value).sum::<Complex<f64>>() / real(count as f64);
+        let [x, y] = [|pair: &Pair| pair.x.clone(), |pair: &Pair| pair.y.clone()]
+            .map(|side| Matrix::from_columns(&group.iter().map(|pair| side(pair)).collect::<Vec<_>>()));
+        let slope = y.adjoint() * self.slope_at(center) * &x;
+        let sizes = slope.singular_values();
+        if sizes.min() <= DEFECTIVE * sizes.max() {
+            return None;
+        }
+        let inverse = slope.try_inverse()?;
+        let small = &inverse * (y.adjoint() * self.at(center) * &x) * real(-1.0);
+        let (unitary, triangle) = Schur::try_new(small, f64::EPSILON, SWEEPS)?.unpack();
+        let vectors = unitary * vectors_of(&triangle);
+        let (x, y) = (x * &vectors, y * (vectors.try_inverse()? * inverse).adjoint());
+        let pair = |k: usize| {
+            let (x, y) = (x.column(k).normalize(), y.column(k).normalize());
+            let value = self.quotient(center + triangle[(k, k)], &x, &y)?;
+            let value = if center.im == 0.0 { real(value.re) } else { value };
+            ((value - center).modulus() <= JUMP * center.modulus()).then_some(Pair { value, x, y })
+        };
+        (0..count).map(pair).collect()
+    }
+
+    fn eigen(&self, Pair { value, x, y }: Pair) -> Eigen {
+        let largest = x.iter().copied().fold(real(0.0), |a, b| if b.modulus() > a.modulus() { b } else { a });
         let phase = largest.conj() / largest.modulus().max(f64::MIN_POSITIVE);
-        Eigen { value, vector: x * phase }
+        let rounding = self.rounding(value, &x, &y);
+        Eigen { value, vector: x * phase, rounding }
+    }
+
+    /// How far the root next to λ of yᴴ (λ² M + λ C + K) x = 0 is moved by rounding of its terms, and by what x leaves of the equation: it
+    /// grows with the root of them where two eigenvalues meet.
+    fn rounding(&self, value: Complex<f64>, x: &Vector, y: &Vector) -> f64 {
+        let n = x.len();
+        let (mut terms, mut slope) = (0.0, Complex::new(0.0, 0.0));
+        for j in 0..n {
+            for i in 0..n {
+                let both = y[i].conj() * x[j];
+                let sizes = value.modulus() * self.damping[(i, j)].abs() + self.stiffness[(i, j)].abs();
+                terms += both.modulus() * sizes;
+                slope += both * self.damping[(i, j)];
+            }
+        }
+        let mass: Complex<f64> = (0..self.inertial).map(|i| y[i].conj() * x[i]).sum();
+        terms += value.norm_sqr() * mass.modulus();
+        slope += value * mass * 2.0;
+        let left = y.norm() * (self.at(value) * x).norm();
+        let moved = ROUNDED * terms + left;
+        let (slope, curvature) = (slope.modulus(), mass.modulus());
+        let root = (slope * slope + 4.0 * curvature * moved).sqrt();
+        2.0 * moved / (slope + root).max(f64::MIN_POSITIVE)
     }
 
     /// The root next to `value` of yᴴ (λ² M + λ C + K) x = 0 — eq. (10.14).
@@ -196,6 +284,34 @@ impl Pencil {
             .filter(|root| root.re.is_finite() && root.im.is_finite())
             .min_by(|p, q| (p - value).modulus().total_cmp(&(q - value).modulus()))
     }
+}
+
+fn real(x: f64) -> Complex<f64> {
+    Complex::new(x, 0.0)
+}
+
+/// Takes the part across another vector, unless that is none: equal eigenvalues may have one vector.
+fn take_away(x: &mut Vector, other: &Vector) {
+    let along = other.dotc(x) / real(other.norm_squared());
+    let across = &*x - other * along;
+    if across.norm() > BESIDE * x.norm() {
+        *x = across;
+    }
+}
+
+/// Eigenvectors of an upper triangle, its diagonal in order, as columns; equal eigenvalues have the vectors of the triangle's own basis.
+fn vectors_of(triangle: &Matrix) -> Matrix {
+    let count = triangle.nrows();
+    let least = f64::EPSILON * triangle.norm();
+    let mut vectors = Matrix::identity(count, count);
+    for k in 1..count {
+        for i in (0..k).rev() {
+            let rest: Complex<f64> = (i + 1..=k).map(|j| triangle[(i, j)] * vectors[(j, k)]).sum();
+            let apart = triangle[(k, k)] - triangle[(i, i)];
+            vectors[(i, k)] = if apart.modulus() > least { rest / apart } else { real(0.0) };
+        }
+    }
+    vectors
 }
 
 /// The solution of a system that was chosen regular.

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use schemars::JsonSchema;
 use serde::Serialize;
 use triad_dynamics::constraints::violation;
-use triad_linalg::largest_size;
+use triad_linalg::{largest_size, least_squares};
 
 /// Part of the largest force by which forces may change in the frame of the motion.
 const CHANGED: f64 = 1e-6;
@@ -62,21 +62,32 @@ impl Unfelt {
     }
 }
 
+/// The steady motion in which a stage is held.
+pub struct Found {
+    /// What is told of it.
+    pub told: SteadyMotion,
+    /// What changes nothing of it.
+    pub unfelt: Unfelt,
+    /// A twist of the bodies by which the position may be off.
+    pub off: DVector<f64>,
+}
+
 /// Finds the steady motion near the start, and holds the stage in it.
-pub fn find(stage: &mut Stage) -> Result<(SteadyMotion, Unfelt), AnalysisError> {
+pub fn find(stage: &mut Stage) -> Result<Found, AnalysisError> {
     let symmetries = Symmetries::new(stage)?;
     stage.momenta = Some(symmetries.momenta.clone());
     fits(stage)?;
     symmetries.keep_momenta(stage)?;
     within_reach(stage, &symmetries.momenta)?;
     settle(stage)?;
-    equilibrium::find(stage).map_err(|error| match error {
+    let found = equilibrium::find(stage).map_err(|error| match error {
         AnalysisError::NoEquilibrium { residual, body, .. } => none(format!(
             "in the frame that moves along, a generalized force of {residual:.3e} N is left, most of it on body \"{body}\""
         )),
         other => other,
     })?;
     let unfelt = symmetries.unfelt(stage);
+    let off = across(found.off(), &unfelt.drifts);
     stage.momenta = None;
     let flow = &stage.flow;
     let names = stage.mechanism.system.model.bodies.iter().map(|body| body.name.clone());
@@ -92,7 +103,17 @@ pub fn find(stage: &mut Stage) -> Result<(SteadyMotion, Unfelt), AnalysisError> 
     fits(stage)?;
     lasting::lasts(stage)?;
     stage.rest();
-    Ok((told, unfelt))
+    Ok(Found { told, unfelt, off })
+}
+
+/// A twist less its part along others.
+fn across(twist: DVector<f64>, others: &DMatrix<f64>) -> DVector<f64> {
+    if others.is_empty() {
+        return twist;
+    }
+    let column = DMatrix::from_column_slice(twist.len(), 1, twist.as_slice());
+    let along = least_squares(others, &column, 0.0).0;
+    twist - (others * along).column(0)
 }
 
 /// Refuses what would take long: the momenta of all fields are kept at each position at which forces are looked at, four for each

@@ -107,7 +107,7 @@ impl IslandStepper {
         if (in_plane || redundant) && rows > 0 {
             let mut measured = series_of(&expanded.in_lengths(), 1);
             measured.place(solved, t, y);
-            dependent = measured.find_dependent(system.length, redundant);
+            dependent = measured.find_dependent(system.length, redundant, system.driven_away(t));
             series.leave_out(&dependent);
         }
         let redundant = !dependent.is_empty();

@@ -156,10 +156,37 @@ impl Outputs {
         if let Some(note) = self.shared_note() {
             self.convention(note.to_owned());
         }
+        if self.groups.iter().any(|group| matches!(group, Group::Errors { .. })) {
+            self.tell_without_errors();
+        }
+    }
+
+    /// Which columns the estimated errors say nothing of, or not by their own names.
+    fn tell_without_errors(&mut self) {
         let has = |wanted: fn(&Group) -> bool| self.groups.iter().any(wanted);
-        if has(|group| matches!(group, Group::Load(_))) && has(|group| matches!(group, Group::Errors { .. }))
-        {
-            self.convention("No errors are estimated of what loads do.".to_owned());
+        let kinds = [
+            (has(|group| matches!(group, Group::Load(_))), "what loads do"),
+            (has(|group| matches!(group, Group::Acceleration(_))), "accelerations"),
+            (has(|group| matches!(group, Group::Driver { .. })), "powers of drivers"),
+        ];
+        let without: Vec<&str> = kinds.into_iter().filter_map(|(has, kind)| has.then_some(kind)).collect();
+        let balance = has(|group| matches!(group, Group::Balance));
+        let in_joints = has(|group| matches!(group, Group::Angle(_) | Group::Slide(_)));
+        if !without.is_empty() {
+            self.convention(format!("No errors are estimated of {}.", listed(&without)));
+        }
+        if in_joints {
+            self.convention(
+                "Errors of angles and ways of joints are those of directions and positions of both bodies."
+                    .to_owned(),
+            );
+        }
+        if balance {
+            self.convention(
+                "energy_error is that of the sum of kinetic and potential energy, each of which may be off by more; work is off by about \
+                 the energy drift."
+                    .to_owned(),
+            );
         }
     }
 
@@ -201,5 +228,13 @@ impl Outputs {
             }
         }
         self.scalar(name, "power", "W");
+    }
+}
+
+/// Words as in a sentence: the last after "and".
+fn listed(words: &[&str]) -> String {
+    match words {
+        [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
+        _ => words.concat(),
     }
 }
