@@ -15,7 +15,7 @@ const MET: f64 = 1e-9;
 const STEPS: usize = 40;
 /// Part of the largest slope of (8.3) below which one is none.
 const FLAT: f64 = 1e-8;
-/// Where the search begins anew if it does not end: parts of the fastest body's velocity.
+/// Where the search begins anew if it does not end: parts of how fast the fastest body turns.
 const BESIDE: [f64; 3] = [0.0, 0.3, -0.3];
 /// Rows with which dense matrices take some seconds.
 const MOST_ROWS: usize = 600;
@@ -34,19 +34,22 @@ pub enum Branch {
 /// Changes velocities that satisfy the rows at a singular position q, at the time of the state, to those of a branch of the motion; the
 /// state is left there.
 pub fn take(system: &System, state: &mut State, q: &[f64], q_dot: &mut [f64]) -> Branch {
-    if state::fastest(system, &[q, q_dot].concat()) == 0.0 || system.solver_rows > MOST_ROWS {
+    if system.solver_rows > MOST_ROWS {
         return Branch::Given;
     }
     state.set_positions(system, q);
     let mut search = Search::new(system, state, q);
     let given = q_dot.to_vec();
-    if search.left(&given).is_met() {
+    let left = search.left(&given);
+    if left.is_met() {
         return Branch::Given;
     }
+    // Where drivers alone set bodies at rest in motion, what they ask for says how fast.
+    let pace = state::fastest(system, &[q, &given].concat()).max((left.size / system.length).sqrt());
     for part in BESIDE {
         let mut there = given.clone();
         if part != 0.0 {
-            let aside = part * state::fastest(system, &[q, &given].concat());
+            let aside = part * pace * system.length;
             there = search
                 .moved(&there, &DVector::from_fn(search.motions.ncols(), |k, _| aside / (k + 1) as f64));
         }
@@ -59,15 +62,15 @@ pub fn take(system: &System, state: &mut State, q: &[f64], q_dot: &mut [f64]) ->
     Branch::None
 }
 
-/// χᵀ γ' for each χ, and what is none of it.
+/// χᵀ γ' for each χ, and the size of γ'.
 struct Left {
     along: DVector<f64>,
-    none: f64,
+    size: f64,
 }
 
 impl Left {
     fn is_met(&self) -> bool {
-        self.along.amax() <= self.none
+        self.along.amax() <= MET * self.size
     }
 }
 
@@ -96,7 +99,7 @@ impl<'a> Search<'a> {
     fn left(&mut self, q_dot: &[f64]) -> Left {
         self.state.set_velocities(self.system, q_dot);
         let needed = DVector::from_column_slice(self.geometry.needed_accelerations(self.state));
-        Left { along: self.idle.tr_mul(&needed), none: MET * needed.norm() }
+        Left { along: self.idle.tr_mul(&needed), size: needed.norm() }
     }
 
     /// Velocities changed by a combination of the motions.
@@ -130,8 +133,8 @@ impl<'a> Search<'a> {
 
     /// One step, `None` where it leads nowhere.
     fn step(&mut self, q_dot: &[f64], left: &Left) -> Option<Vec<f64>> {
-        // (8.3) is of second degree: differences of any length are exact.
-        let length = state::fastest(self.system, &[self.q, q_dot].concat());
+        // (8.3) is of second degree: differences of any size are exact.
+        let size = state::fastest(self.system, &[self.q, q_dot].concat()) * self.system.length;
         let count = self.motions.ncols();
         let mut slopes = DMatrix::zeros(self.idle.ncols(), count);
         for k in 0..count {
@@ -139,8 +142,12 @@ impl<'a> Search<'a> {
                 let there = self.moved(q_dot, &DVector::from_fn(count, |i, _| if i == k { by } else { 0.0 }));
                 self.left(&there).along
             };
-            let slope = (at(length) - at(-length)) / (2.0 * length);
+            let slope = (at(size) - at(-size)) / (2.0 * size);
             slopes.set_column(k, &slope);
+        }
+        // At rest there is no size; and of what is not finite no decomposition ends.
+        if !slopes.iter().all(|slope| slope.is_finite()) {
+            return None;
         }
         let svd = slopes.svd(true, true);
         let step = svd.solve(&left.along, FLAT * svd.singular_values.amax()).ok()?;

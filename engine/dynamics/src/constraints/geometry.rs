@@ -142,9 +142,17 @@ impl Geometry {
         let (mut q, mut q_dot) = (q.to_vec(), vec![0.0; q.len()]);
         state.set_time(system, later);
         state.set_positions(system, &q);
+        let (start, length) = (q.clone(), system.length);
         let mut on = ProjectableState { system, state, elimination, q: &mut q, q_dot: &mut q_dot };
-        let found = project_positions(&mut on, &rules::ASSEMBLY_POSITIONS, system.length);
-        if found.has_converged() && violation::is_closed(system, on.state) {
+        let found = project_positions(&mut on, &rules::ASSEMBLY_POSITIONS, length);
+        if !(found.has_converged() && violation::is_closed(system, on.state)) {
+            // From a dead point Newton's method does not know whither: any way aside is one.
+            on.q.copy_from_slice(&start);
+            on.state.set_positions(system, on.q);
+            on.elimination.linearize(system, on.state);
+            move_away(&mut on, length);
+        }
+        if violation::is_closed(system, state) {
             there.place_while(state, wanted);
             there.look_beside(state, &q, wanted);
             if there.dependent.len() < self.dependent.len() {

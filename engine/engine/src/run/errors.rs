@@ -12,6 +12,8 @@ use triad_dynamics::model::{BodyRef, ModelBody};
 use triad_dynamics::state::{BodyFrame, State};
 use triad_dynamics::system::body::RigidBody;
 
+/// How far from a singular start, in lengths of the mechanism, reactions are those of the motion.
+const BESIDE_START: f64 = 1e-3;
 /// Part of what the errors of all bodies would make of the energy, did each change it the same way, below which they are not taken to cancel.
 const CANCELLED: f64 = 0.05;
 /// Part of the error of all positions, over the length of the mechanism, below which that of directors is not told, since what moves one
@@ -94,7 +96,7 @@ impl Simulation {
     /// a second time, without the error of the state: with what was found for the state, if that is near enough. Where the two
     /// agree much better than the states do, twice more, without errors that are a little different: parts of it may cancel.
     pub fn reaction_errors(&self) -> Option<ReactionErrors> {
-        if self.is_at_singular_start() {
+        if self.is_beside_singular_start() {
             return None;
         }
         let better = self.better()?;
@@ -125,10 +127,15 @@ impl Simulation {
         })
     }
 
-    /// Whether rows lose their hold at the current state, the start: accelerations and reactions there are not those of the branch of the
-    /// motion, which higher derivatives of the rows alone determine.
-    pub fn is_at_singular_start(&self) -> bool {
-        self.time() <= 0.0 && self.rank().lost_at_start() > 0
+    /// Whether rows lose their hold at the start, which bodies have hardly left: accelerations and reactions are not those of the branch of
+    /// the motion, which higher derivatives of the rows alone determine at the start, and rounding beside it.
+    pub fn is_beside_singular_start(&self) -> bool {
+        if self.rank().lost_at_start() == 0 {
+            return false;
+        }
+        let positions = self.system().coordinates;
+        let most = BESIDE_START * self.system().length;
+        self.system().longest_way(&self.start[..positions], &self.current.y()[..positions]) < most
     }
 
     /// The same of reactions as [`Simulation::reactions`] has told them in a convention: about other points, and along axes that turn, their

@@ -187,8 +187,8 @@ pub(crate) fn analyze_rank(
 }
 
 /// What equations of second order say of a singular start.
-const AT_SINGULAR_START: &str = "accelerations and forces at t = 0 are not those of the branch that is followed, which the equations do not \
-                                 determine there; from a little later on they are";
+const AT_SINGULAR_START: &str = "until bodies have moved by a thousandth of the mechanism's length, accelerations and forces are not those of \
+                                 the branch that is followed, which the equations hardly determine there";
 
 /// That rows lose their hold at the start, and which branch of the motion begins there.
 fn singular_start(rank: &Rank, branch: Branch) -> String {

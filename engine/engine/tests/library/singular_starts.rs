@@ -138,3 +138,43 @@ fn kinematics_begins_on_the_branch_of_the_velocities_or_asks_for_them() {
     let error = kinematics(&flat([0.0; 3], &steady()), Convention::default()).unwrap_err();
     assert!(error.to_string().contains("the velocities do not say which is meant"), "{error}");
 }
+
+/// A slider-crank that is stretched, its slide driven back as by a crank that turns with 1 rad/s either way; with the crank's rate given.
+fn stretched(rate: f64) -> Scene {
+    let bar = |name: &str, left: f64, length: f64, velocity: f64, spin: f64| {
+        json!({ "name": name, "mass": 1.0, "inertia": { "principal": [0.1, 0.2, 0.25] }, "center_of_mass": [0.5 * length, 0.0, 0.0],
+            "position": [left, 0.0, 0.0], "velocity": [0.0, velocity, 0.0], "angular_velocity": [0.0, 0.0, spin] })
+    };
+    let hinge = |name: &str, i: &str, j: &str, x: f64| json!({ "name": name, "type": "revolute", "body_i": i, "body_j": j, "point": [x, 0, 0], "axis": [0, 0, 1] });
+    let scene = json!({
+        "name": "stretched", "gravity": [0, -9.81, 0],
+        "bodies": [bar("crank", 0.0, 1.0, 0.0, rate), bar("rod", 1.0, 2.0, rate, -0.5 * rate), bar("slide", 3.0, 0.0, 0.0, 0.0)],
+        "joints": [hinge("A", "ground", "crank", 0.0), hinge("B", "crank", "rod", 1.0), hinge("C", "rod", "slide", 3.0),
+            { "name": "P", "type": "prismatic", "body_i": "ground", "body_j": "slide", "point": [3, 0, 0], "axis": [1, 0, 0] }],
+        "drivers": [{ "name": "pull", "type": "slide", "joint": "P",
+            "motion": { "kind": "expression", "value": "cos(t)+sqrt(4-sin(t)^2)-3" } }],
+        "simulation": { "duration": 1.0, "every": 0.1 },
+    });
+    Scene::from_json(&scene.to_string()).unwrap()
+}
+
+/// A driver that starts at its dead point stands still at first: its acceleration alone says how fast the crank turns there, and either way
+/// is one. Newton's method finds no position a little later from there, and any way aside is one.
+#[test]
+fn a_driver_may_start_at_its_dead_point() {
+    for rate in [1.0, -1.0, 0.3, 0.0] {
+        let scene = stretched(rate);
+        assert_eq!(check(&scene).unwrap().degrees_of_freedom, 0, "{rate}");
+        let mut run = Simulation::new(&scene).unwrap();
+        let told = run.notes().iter().any(|note| note.contains("the velocities belonged to none"));
+        assert_eq!(told, rate.abs() != 1.0, "{rate}: {:?}", run.notes());
+        let started = run.frame().bodies[0].angular_velocity[2];
+        assert!(
+            (started.abs() - 1.0).abs() < 1e-12 && (rate == 0.0 || started * rate > 0.0),
+            "{rate}: {started}"
+        );
+        run.advance_to(1.0).unwrap();
+        let off = (angle(&run, 0) - started.signum()).abs();
+        assert!(off < 1e-9, "{rate}: {off:e}");
+    }
+}

@@ -30,7 +30,7 @@ pub(super) struct Worth {
 }
 
 /// Why nothing is known of forces at a singular start.
-const OF_NO_BRANCH: &str = "rows lose their hold at this start: these forces are not those of the branch that the motion follows, which grow \
+const OF_NO_BRANCH: &str = "rows lose their hold at the start, which bodies have hardly left: these forces are not those of the branch that the motion follows, which grow \
                             beyond all bounds next to it unless what acts on the bodies happens to be in balance; look a little later";
 
 impl Worth {
@@ -42,7 +42,7 @@ impl Worth {
     ) -> Result<Self, EngineError> {
         let reaction_errors = simulation.reaction_errors_as_told(told, convention)?;
         let mut summary = simulation.summary();
-        if simulation.is_at_singular_start() {
+        if simulation.is_beside_singular_start() {
             summary.error_unknown_from = Some(simulation.time());
             summary.doubts.push(OF_NO_BRANCH.to_owned());
         }

@@ -116,8 +116,8 @@ export const toldOfRuns: Record<string, string> = {
     "Lasten, die sich mit der Zeit ändern, gelten, wie sie bei t = {t} s sind: {loads}",
   "how many modes there are depends on rounding: some motion has next to no inertia or stiffness":
     "wie viele Eigenformen es gibt, hängt vom Runden ab: Eine Bewegung hat so gut wie keine Trägheit oder Steifigkeit",
-  "accelerations and forces at t = 0 are not those of the branch that is followed, which the equations do not determine there; from a little later on they are":
-    "Beschleunigungen und Kräfte bei t = 0 sind nicht die des Zweigs, dem gefolgt wird: Die Gleichungen bestimmen sie dort nicht; von ein wenig später an sind sie es",
+  "until bodies have moved by a thousandth of the mechanism's length, accelerations and forces are not those of the branch that is followed, which the equations hardly determine there":
+    "Bis sich Körper um ein Tausendstel der Länge des Mechanismus bewegt haben, sind Beschleunigungen und Kräfte nicht die des Zweigs, dem gefolgt wird: Die Gleichungen bestimmen sie dort kaum",
   'joint "{joint}" holds what others hold, but not exactly: a motion opens it by {part} of its length, which is taken for rounding; give axes and points with all their digits, or a joint that leaves free what the others hold':
     "Gelenk „{joint}“ hält, was andere halten, aber nicht genau: Eine Bewegung öffnet es um {part} ihrer Länge, was als Rundung gilt; gib Achsen und Punkte mit allen Stellen, oder ein Gelenk, das frei lässt, was die anderen halten",
   "joints hold more than once what they hold: friction with a coefficient follows the smallest reactions that do, which need not be those of a real mechanism":

@@ -122,12 +122,13 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         let start = self.state.clone();
         let dependent = find_dependent_rows(self, length);
         let Some(later) = later.filter(|_| !dependent.is_empty()) else { return dependent };
-        self.state = start;
+        self.state.clone_from(&start);
         self.set_time(later);
         self.redundant = true;
         let found = project_positions(self, &rules::ASSEMBLY_POSITIONS, length);
         if !(found.has_converged() && self.is_finite()) {
-            return dependent;
+            // From a dead point Newton's method does not know whither: any way aside is one.
+            self.state = start;
         }
         let there = find_dependent_rows(self, length);
         if there.len() < dependent.len() { there } else { dependent }

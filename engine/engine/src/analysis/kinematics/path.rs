@@ -198,7 +198,7 @@ impl Path {
         let found = self.stage.accelerate();
         self.accelerations = (0..bodies).map(|body| found.of_body(body)).collect();
         if self.singular {
-            if self.run.is_at_singular_start() {
+            if self.run.time() <= 0.0 && self.run.is_beside_singular_start() {
                 self.accelerate_from_later()?;
             } else {
                 self.accelerate_smoothly();
