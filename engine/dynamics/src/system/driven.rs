@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 const AWAY: f64 = 0.03;
 
 impl System {
-    /// The first moment after t at which a driver has moved something by [`AWAY`], as far as a thousand moments of the run tell; where none
+    /// The first moment after t at which a driver has moved something by `AWAY`, as far as a thousand moments of the run tell; where none
     /// goes that far, that at which one has gone farthest. `None` if all stand still.
     pub fn driven_away(&self, t: f64) -> Option<f64> {
         let changes = self.curves.iter().any(VectorCurve::changes);
