@@ -8,6 +8,7 @@ use std::sync::mpsc::{SyncSender, TrySendError};
 use std::sync::{Arc, Weak};
 use std::time::Duration;
 
+use futures_util::FutureExt;
 use tokio::runtime::Handle;
 use tokio::sync::Semaphore;
 use tokio::time::sleep;
@@ -48,18 +49,30 @@ impl Turns {
 
     /// Stands in line for a run that is told of its turn among its commands, if it still lives then. Needs the async runtime.
     pub(super) fn stand_in_line(&self, runtime: &Handle, run: Weak<SyncSender<Command>>) {
-        let (turns, in_line) = (self.clone(), InLine::of(&self.waiting));
+        let (turns, in_line, mut place) = (self.clone(), InLine::of(&self.waiting), self.place());
         runtime.spawn(async move {
             let _in_line = in_line;
-            while let Ok(place) = Arc::clone(&turns.places).acquire_owned().await {
-                let Some(run) = run.upgrade() else { return };
-                match run.try_send(Command::Turn(Turn(place))) {
-                    // So much is asked of it that it has no time to go on; the turn goes back with the command.
-                    Err(TrySendError::Full(_)) => sleep(BUSY).await,
-                    Ok(()) | Err(TrySendError::Disconnected(_)) => return,
-                }
+            while let Some(turn) = place.await {
+                let told = run.upgrade().map(|run| run.try_send(Command::Turn(turn)));
+                let Some(Err(TrySendError::Full(back))) = told else { return };
+                // So much is asked of it that it has no time to go on: others do meanwhile.
+                drop(back);
+                sleep(BUSY).await;
+                place = turns.place();
             }
         });
+    }
+
+    /// A place in the line, from now on and not only from when it is first waited for.
+    fn place(&self) -> impl Future<Output = Option<Turn>> + use<> {
+        let mut place = Box::pin(Arc::clone(&self.places).acquire_owned().map(|place| place.ok().map(Turn)));
+        let at_once = place.as_mut().now_or_never();
+        async move {
+            match at_once {
+                Some(turn) => turn,
+                None => place.await,
+            }
+        }
     }
 
     /// Waits in a run's thread for a turn; none if the run is interrupted before it comes.
@@ -69,14 +82,14 @@ impl Turns {
         }
         let _in_line = InLine::of(&self.waiting);
         runtime.block_on(async {
-            let place = Arc::clone(&self.places).acquire_owned();
+            let place = self.place();
             tokio::pin!(place);
             loop {
                 if signals.interrupted() {
                     return None;
                 }
                 tokio::select! {
-                    place = &mut place => return place.ok().map(Turn),
+                    turn = &mut place => return turn,
                     () = signals.changed() => {}
                 }
             }
@@ -114,7 +127,9 @@ mod tests {
     }
 
     fn turn(commands: &Receiver<Command>) -> Turn {
-        let Ok(Command::Turn(turn)) = commands.recv() else { panic!("no turn") };
+        let Ok(Command::Turn(turn)) = commands.recv_timeout(Duration::from_mins(1)) else {
+            panic!("no turn")
+        };
         turn
     }
 
@@ -124,9 +139,7 @@ mod tests {
         let busy = turns.now().expect("free");
         assert!(turns.now().is_none());
         let waiters: Vec<_> = (0..3).map(|_| run(&turns)).collect();
-        while turns.waiting() < 3 {
-            tokio::task::yield_now().await;
-        }
+        assert_eq!(turns.waiting(), 3);
         let mut waiters = waiters.into_iter();
         drop(waiters.next());
         drop(busy);
