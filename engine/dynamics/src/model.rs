@@ -125,7 +125,7 @@ impl Model {
         let (joints, mut starts) = read_joints(scene, &names, &bodies, &mut row_names, &mut notes)?;
         let driven = driven_from(scene, &names, &bodies, &joints);
         placement::begin_where_driven(&driven, &joints, &mut starts, &mut notes);
-        meshing::pass_on(&joints, &mut starts)?;
+        meshing::pass_on(&joints, &mut starts, &mut notes)?;
         placement::place(&mut bodies, &joints, &starts, &mut notes);
         let reader = |list, index, name| ModelReader {
             list,

@@ -43,7 +43,7 @@ impl WrittenScene {
     /// [`SceneError::NoNumber`]: what stands at the place instead.
     pub fn number(&self, pointer: &str) -> Result<f64, SceneError> {
         let fail = |found: String| SceneError::NoNumber { pointer: pointer.to_owned(), found };
-        match self.0.pointer(pointer) {
+        match self.0.pointer(&self.place(pointer)) {
             None => Err(fail(format!("there is nothing; {}", self.deepest(pointer)))),
             Some(Value::Number(number)) => Ok(number.as_f64().unwrap_or(f64::NAN)),
             Some(Value::String(word)) => Err(fail(format!("the word \"{word}\" stands there"))),
@@ -98,6 +98,27 @@ impl WrittenScene {
         Scene::deserialize(&self.0).or_else(|_| Scene::from_json(&self.0.to_string()))
     }
 
+    /// The place that a pointer means. A constant that a scene states shortly, `"force": [1, 2, 3]`, has its kind written out here, and
+    /// is found as it is stated: `/loads/0/force/2`.
+    fn place(&self, pointer: &str) -> String {
+        let (mut at, mut place) = (&self.0, String::new());
+        for token in pointer.split('/').skip(1).map(Some).chain([None]) {
+            if let Value::Object(inner) = at
+                && token.is_none_or(|token| !inner.contains_key(token))
+                && let Some(key) = stated_shortly(inner)
+            {
+                place = format!("{place}/{key}");
+            }
+            let Some(token) = token else { return place };
+            place = format!("{place}/{token}");
+            match self.0.pointer(&place) {
+                Some(inner) => at = inner,
+                None => return pointer.to_owned(),
+            }
+        }
+        place
+    }
+
     /// What can be said about a place that is not there.
     fn deepest(&self, pointer: &str) -> String {
         let mut known = "";
@@ -124,12 +145,19 @@ impl WrittenScene {
                 return Err(wrong(format!("a number stands there, and {to} is none")));
             }
         }
-        match self.0.pointer_mut(pointer) {
+        let place = self.place(pointer);
+        match self.0.pointer_mut(&place) {
             Some(place) => *place = to.clone(),
             None => return Err(wrong("there is nothing".to_owned())),
         }
         Ok(())
     }
+}
+
+/// The key of the constant in a value that may vary, if it is one.
+fn stated_shortly(inner: &Map<String, Value>) -> Option<&'static str> {
+    let mut keys = ["value", "vector"].into_iter().filter(|_| inner.len() == 2 && inner.contains_key("kind"));
+    keys.find(|key| inner.get(*key).is_some_and(|constant| constant.is_number() || constant.is_array()))
 }
 
 fn keys(map: &Map<String, Value>) -> String {

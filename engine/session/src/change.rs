@@ -157,6 +157,15 @@ pub struct Drag {
 const DRAG_PERIOD: f64 = 0.6;
 
 impl Drag {
+    /// The same point of a body whose centre of mass or principal axes are others now.
+    pub(crate) fn carried_on(&self, before: &Model, scene: &Scene) -> Result<Self, Refusal> {
+        let after = Model::new(scene).map_err(EngineError::from)?;
+        let of = |model: &Model| model.bodies.iter().find(|body| body.name == self.body).cloned();
+        let (Some(before), Some(after)) = (of(before), of(&after)) else { return Ok(self.clone()) };
+        let point = after.point_to_principal(&before.point_from_principal(self.point).into());
+        Ok(Self { point: point.into(), ..self.clone() })
+    }
+
     /// The scene with the spring in it.
     ///
     /// Errors if there is no such body, or the stiffness is not positive.

@@ -198,10 +198,14 @@ impl Run {
     /// Errors if they are refused, or the run cannot go on with them.
     pub fn change(&mut self, change: &SceneChange, now: f64) -> Result<(), Refusal> {
         let (scene, then) = change.of(&self.scene)?;
-        if then == AfterChange::Restart {
-            self.drag = None;
-        }
-        let mut next = assembled(&scene, self.drag.as_ref())?;
+        let drag = match (then, &self.drag) {
+            (AfterChange::Continue, Some(drag)) => {
+                let scene = Scene { parameters: Vec::new(), ..scene.clone() };
+                Some(drag.carried_on(self.simulation.model(), &scene)?)
+            }
+            _ => None,
+        };
+        let mut next = assembled(&scene, drag.as_ref())?;
         let description = describe(&scene, &next);
         match then {
             AfterChange::Restart => self.error = None,
@@ -209,6 +213,7 @@ impl Run {
         }
         let before = std::mem::replace(&mut self.simulation, next);
         self.scene = scene;
+        self.drag = drag;
         self.changes += 1;
         match then {
             AfterChange::Restart => {
@@ -294,7 +299,7 @@ impl Run {
     ///
     /// Errors if the engine cannot go on.
     pub fn step(&mut self) -> Result<bool, Refusal> {
-        if self.simulation.time() >= self.simulation.duration() {
+        if self.simulation.finished() {
             return Ok(false);
         }
         self.simulation.step()?;
@@ -312,20 +317,20 @@ impl Run {
         self.output_times().meant(self.simulation.time() + seconds)
     }
 
-    /// Goes on towards simulated time `target`, or the end of the run, by a few steps or to the next of the scene's output
+    /// Goes on towards simulated time `target`, or the end of the run, an event that stops it included, by a few steps or to the next of the scene's output
     /// times; returns whether there is more to do.
     ///
     /// Errors if the engine cannot go on.
     pub fn advance(&mut self, target: f64) -> Result<bool, Refusal> {
         let target = target.min(self.simulation.duration());
-        if self.simulation.time() >= target {
+        if self.simulation.finished() || self.simulation.time() >= target {
             return Ok(false);
         }
         let next = self.output_times().after(self.simulation.time());
         if self.simulation.advance_towards(next.min(target), STEPS_AT_ONCE)? {
             self.record();
         }
-        Ok(self.simulation.time() < target)
+        Ok(!self.simulation.finished() && self.simulation.time() < target)
     }
 
     /// The simulated time that a playing run should have reached. Simulated time follows the owner's clock; frames fall on
@@ -342,13 +347,11 @@ impl Run {
         if self.simulation.time() + self.simulation.model().settings.every < target {
             self.play = Some(Play { since: now, from: self.simulation.time() });
         }
-        if self.simulation.time() >= self.simulation.duration() {
-            self.play = None;
-        }
         if let Err(refusal) = reached {
             self.stop(refusal);
         }
         if self.simulation.finished() {
+            self.play = None;
             // The whole run is known: its scale is that of all of it.
             self.samples.fit(false);
         }

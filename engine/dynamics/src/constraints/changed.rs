@@ -1,4 +1,4 @@
-//! Given velocities of which the constraints leave little.
+//! What is said of a given start that the constraints change.
 
 use crate::system::System;
 use nalgebra::Vector3;
@@ -6,8 +6,17 @@ use nalgebra::Vector3;
 /// A given velocity that is changed by more than this part of itself is told.
 const LARGE_PART: f64 = 0.1;
 
-/// |Φ̇| relative to the mechanism's length up to which velocities fit.
+/// |Φ| and |Φ̇| relative to the mechanism's length up to which a start fits.
 const FITS: f64 = 1e-9;
+
+/// That positions which violated the constraints by `violated` were moved.
+pub(super) fn position_note(system: &System, violated: f64, moved: f64) -> Option<String> {
+    (violated > FITS * system.length).then(|| {
+        format!(
+            "positions violated the constraints by {violated:.3e}; bodies were moved by up to {moved:.3e} onto them"
+        )
+    })
+}
 
 /// That velocities which violated the constraints by `rate` were changed.
 pub(super) fn velocity_note(system: &System, rate: f64, given: &[f64], found: &[f64]) -> Option<String> {

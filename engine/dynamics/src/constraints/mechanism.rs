@@ -27,7 +27,7 @@ const RATE_ROUNDING: f64 = 1e-9;
 /// unit of the tolerance.
 const RATE_TOLERANCE: f64 = 1e3;
 /// A start that must be moved by more than this part of the mechanism's length is not corrected but refused.
-const MAX_MOVE: f64 = 0.5;
+pub(super) const MAX_MOVE: f64 = 0.5;
 
 /// A system, a state, and the solver of its equations.
 #[derive(Clone, Debug)]
@@ -213,11 +213,7 @@ impl Mechanism {
             let moved = std::f64::consts::PI * length;
             return Err(ConstraintError::StartTooFar { joint, pointer, moved, limit });
         }
-        Ok((violated > 1e-9 * length).then(|| {
-            format!(
-                "positions violated the constraints by {violated:.3e}; bodies were moved by up to {moved:.3e} onto them"
-            )
-        }))
+        Ok(changed::position_note(&self.system, violated, moved))
     }
 
     /// Moves the velocities onto the constraints, with the positions in place, and says so if it had to, and if little is left of

@@ -2,12 +2,13 @@
 
 use crate::constraints::changed;
 use crate::constraints::given::{driver_of, place, take_over};
-use crate::constraints::mechanism::Mechanism;
+use crate::constraints::mechanism::{MAX_MOVE, Mechanism};
 use crate::constraints::rough;
 use crate::constraints::violation;
 use crate::model::motion::Curve;
-use crate::model::{DriverKind, Model, ModelDriver, ModelStart};
+use crate::model::{BodyRef, DriverKind, Model, ModelDriver, ModelStart};
 use crate::newton::{project_velocities, rules};
+use crate::system::{System, islands};
 
 /// A checked model as a mechanism, and its start y = (q, q̇) as the author gives it by bodies and joints. Where joints give it,
 /// loops are closed as far as that can be done with what is given held; what remains open is left to the assembly.
@@ -17,7 +18,9 @@ pub fn mechanism(model: Model) -> (Mechanism, Vec<f64>) {
 
 /// As [`mechanism`], as long as that is wanted: otherwise somewhere on the way.
 pub fn mechanism_while(mut model: Model, wanted: &dyn Fn() -> bool) -> (Mechanism, Vec<f64>) {
-    if !model.starts.is_empty() {
+    if model.starts.is_empty() {
+        model.follow_drivers();
+    } else {
         close_positions(&mut model, wanted);
         fit_velocities(&mut model);
     }
@@ -59,10 +62,56 @@ fn close_positions(model: &mut Model, wanted: &dyn Fn() -> bool) {
     if violation::relative(&mechanism.system, &mechanism.state) <= f64::EPSILON {
         return;
     }
+    let stated = y.clone();
     rough::close(&mut mechanism, &mut y, wanted);
-    if violation::is_closed(&mechanism.system, &mechanism.state) {
-        take_over(model, &mechanism.system, &y, false);
+    if !violation::is_closed(&mechanism.system, &mechanism.state) {
+        return;
     }
+    // Where no place is given of a joint, bodies stay near where they are stated, and it is said how far they were moved.
+    let given = given_parts(&mechanism.system.model, model);
+    let open = mixed(&mechanism.system, &stated, &y, |body| given[body] != Given::Rates);
+    mechanism.set_state(0.0, &open);
+    let violated = mechanism.state.position_violation(&mechanism.system);
+    let (n, length) = (mechanism.system.coordinates, mechanism.system.length);
+    let moved = mechanism.system.longest_way(&open[..n], &y[..n]);
+    let is_near = moved <= MAX_MOVE * length;
+    let taken = |body: usize| given[body] == Given::Places || (given[body] == Given::Rates && is_near);
+    let start = mixed(&mechanism.system, &stated, &y, taken);
+    take_over(model, &mechanism.system, &start, false);
+    model.notes.extend(changed::position_note(&mechanism.system, violated, moved).filter(|_| is_near));
+}
+
+/// What is given for the start of the joints between bodies that joints and drivers connect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Given {
+    Nothing,
+    Rates,
+    Places,
+}
+
+/// What is given of the part of a mechanism to which each body belongs.
+fn given_parts(held: &Model, model: &Model) -> Vec<Given> {
+    let parts = islands::parts(held);
+    let mut given = vec![Given::Nothing; parts.len()];
+    for start in &model.starts {
+        let of = if start.angle.is_some() || start.slide.is_some() { Given::Places } else { Given::Rates };
+        for body in model.joints[start.joint].bodies {
+            if let BodyRef::Moving(body) = body {
+                given[parts[body]] = given[parts[body]].max(of);
+            }
+        }
+    }
+    parts.into_iter().map(|part| given[part]).collect()
+}
+
+/// y with the places of some bodies from one state and those of the others from another.
+fn mixed(system: &System, others: &[f64], some: &[f64], of_some: impl Fn(usize) -> bool) -> Vec<f64> {
+    let mut y = others.to_vec();
+    for (_, described) in system.bodies.iter().enumerate().filter(|(body, _)| of_some(*body)) {
+        let at = described.layout.position(&some[..system.coordinates]);
+        described.layout.store(&at, &mut y[..system.coordinates]);
+    }
+    y
 }
 
 /// Makes the velocities fit the joints, with the given rates and those of drivers held.

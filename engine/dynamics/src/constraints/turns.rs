@@ -5,7 +5,7 @@ use crate::model::DriverKind;
 use crate::state::{State, nearest};
 use crate::system::System;
 use crate::system::row::Form;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Whole turns up to which one wheel of a gear is tried, either way, where nothing tells how far it has turned.
 const MOST_TURNS: i32 = 1000;
@@ -18,9 +18,25 @@ type Wheel = (usize, f64);
 /// Counts whole turns of the angles of a state so that screws, drivers and gears hold as nearly as they can, else from the angles of the
 /// start. Positions and velocities have to be taken over again afterwards.
 pub fn count(system: &System, state: &mut State) {
+    count_from(system, state, system.start_angles());
+}
+
+/// Goes on counting whole turns where another run of the same joints stood, `angles`, as far as screws, drivers and gears of this one say
+/// nothing else; of what they do say, where it is more than half a turn away, tells in sentences.
+pub fn go_on(system: &System, state: &mut State, angles: &[f64]) -> Vec<String> {
+    count_from(system, state, angles.iter().copied());
+    let counted = state.angles().iter().map(|angle| angle.reference);
+    let joints = system.angle_joints.iter().zip(angles.iter().zip(counted));
+    let other = joints.filter(|(_, (from, to))| (*to - *from).abs() > PI);
+    other.map(|(joint, (from, to))| {
+        format!("joint \"{joint}\": its angle goes on at {to:.4} rad, as drivers, gears and screws say; it stood at {from:.4} rad")
+    }).collect()
+}
+
+fn count_from(system: &System, state: &mut State, from: impl Iterator<Item = f64>) {
     let mut angles: Vec<f64> = state.angles().iter().map(|angle| angle.value).collect();
-    for (angle, start) in angles.iter_mut().zip(system.start_angles()) {
-        *angle = nearest(*angle, start);
+    for (angle, from) in angles.iter_mut().zip(from) {
+        *angle = nearest(*angle, from);
     }
     let mut known = vec![false; angles.len()];
     let set = |angles: &mut [f64], known: &mut [bool], place: usize, wanted: f64| {
@@ -37,7 +53,7 @@ pub fn count(system: &System, state: &mut State) {
     let mut gears: Vec<([Wheel; 2], f64)> = Vec::new();
     for row in &system.rows {
         match row.form {
-            Form::Relation { angles: [Some((place, factor)), None], slide: Some(_), .. } => {
+            Form::Relation { angles: [Some((place, factor)), None], slide: Some(_), .. } if !known[place] => {
                 // What is left of the row is what the angle lacks.
                 let left = state.relation(&row.form).value / factor;
                 set(&mut angles, &mut known, place, state.angles()[place].value - left);

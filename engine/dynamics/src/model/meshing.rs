@@ -17,12 +17,17 @@ struct Mesh {
     offset: f64,
 }
 
-/// Adds the angles and rates that gears give to joints without one.
+/// Adds the angles and rates that gears give to joints without one, and tells of bodies that are turned away from where they are stated
+/// though nothing is given.
 ///
 /// # Errors
 ///
 /// [`ModelError::Geometry`]: angles at the start of two joints, more than half a turn from what a gear says of them.
-pub(super) fn pass_on(joints: &[ModelJoint], starts: &mut Vec<ModelStart>) -> Result<(), ModelError> {
+pub(super) fn pass_on(
+    joints: &[ModelJoint],
+    starts: &mut Vec<ModelStart>,
+    notes: &mut Vec<String>,
+) -> Result<(), ModelError> {
     let (meshes, of_joint) = meshes(joints);
     if meshes.is_empty() {
         return Ok(());
@@ -46,6 +51,7 @@ pub(super) fn pass_on(joints: &[ModelJoint], starts: &mut Vec<ModelStart>) -> Re
         let Some(mesh) = apart.find(|mesh| mesh.joints.iter().all(|&joint| angles[joint].is_none())) else {
             break;
         };
+        notes.push(mesh.turned(joints));
         angles[mesh.joints[0]] = Some(joints[mesh.joints[0]].stated);
         reached.push(mesh.joints[0]);
     }
@@ -123,6 +129,20 @@ impl Mesh {
     /// The angle of the second joint for one of the first.
     fn angle_of_second(&self, first: f64) -> f64 {
         self.ratio * first + self.offset
+    }
+
+    /// That the second joint is turned to where the first one, which stays as it is stated, says.
+    fn turned(&self, joints: &[ModelJoint]) -> String {
+        let [first, second] = self.joints.map(|joint| &joints[joint]);
+        format!(
+            "gear \"{}\": with \"{}\" at {} rad, where it is stated, \"{}\" starts at {} rad, not at the {} rad where its bodies are stated",
+            joints[self.index].name,
+            first.name,
+            first.stated,
+            second.name,
+            self.angle_of_second(first.stated),
+            second.stated
+        )
     }
 
     /// Gives one of the two joints the angle that follows from that of the other. Returns it, if it had none.

@@ -52,6 +52,13 @@ struct Members {
     merged: Vec<(usize, Merged)>,
 }
 
+/// The part of a model to which each body belongs, as one of its bodies: what joints, drivers and loads connect.
+pub fn parts(model: &Model) -> Vec<usize> {
+    let bodies = model.bodies.len();
+    let mut label = labels(model, &vec![false; bodies], true);
+    (0..bodies).map(|body| rigid::root(&mut label, body)).collect()
+}
+
 /// Divides a system at positions q: into islands if `islands`, and, if `rigid`, without fixed bodies and with those that are rigidly
 /// joined merged.
 pub fn split(system: &System, q: &[f64], islands: bool, rigid: bool) -> Islands {

@@ -8,6 +8,7 @@ use crate::error::EngineError;
 use crate::integrate::Integrator;
 use nalgebra::{Matrix3, Vector3};
 use triad_dynamics::constraints::mechanism::Mechanism;
+use triad_dynamics::constraints::turns;
 use triad_dynamics::dynamics::elimination::Counters;
 use triad_dynamics::model::ModelBody;
 use triad_dynamics::state::BodyFrame;
@@ -56,16 +57,27 @@ impl Simulation {
         let places = system.model.bodies.iter().zip(&other.model().bodies).zip(&frames);
         let moved: Vec<ModelBody> = places.map(|((body, old), frame)| placed_as(body, old, frame)).collect();
         system.start_of(&moved, q, q_dot);
-        self.mechanism
-            .state
-            .set_revolutions(other.current.angles(other.system()).iter().map(|angle| angle.value));
-        let notes = self.mechanism.assemble_at(time, &mut y)?;
+        let angles = self.angles_of(other);
+        self.mechanism.state.set_revolutions(angles.iter().copied());
+        self.mechanism.set_state(time, &y);
+        let Mechanism { system, state, .. } = &mut self.mechanism;
+        let mut notes = turns::go_on(system, state, &angles);
+        notes.extend(self.mechanism.assemble_at(time, &mut y)?);
         self.mechanism.state.commit_revolutions();
         self.begin(time, &y);
         let told =
             |note: &String| format!("at t = {time:.3} s, when the numbers of the run were changed: {note}");
         self.notes.begin_elsewhere(notes.iter().map(told).collect());
         Ok(notes)
+    }
+
+    /// Where angles stand in another run of the same joints, counted from the zeros of this one.
+    fn angles_of(&self, other: &Self) -> Vec<f64> {
+        let stated = |run: &Self, name: &str| {
+            run.model().joints.iter().find(|joint| joint.name == name).map_or(0.0, |joint| joint.stated)
+        };
+        let joints = self.system().angle_joints.iter().zip(other.current.angles(other.system()));
+        joints.map(|(name, angle)| angle.value + stated(self, name) - stated(other, name)).collect()
     }
 
     /// Goes on from a state that was kept of a run of the same scene, at its time; false, and nothing is changed, if it cannot be

@@ -291,3 +291,79 @@ fn a_direction_that_is_followed_is_made_a_unit_vector_or_refused() {
     assert_eq!((error.code(), error.pointer().as_deref()), ("driver-invalid", Some("/drivers/0/reference")));
     assert!(error.hint().contains("Divide"), "{}", error.hint());
 }
+
+/// Without any given start too.
+#[test]
+fn what_hangs_on_a_driven_joint_is_carried_along_where_no_start_is_given() {
+    let (given, plain) =
+        (run(&crane(Value::Null, json!({ "rate": 0.0 }))), run(&crane(Value::Null, Value::Null)));
+    near(&spins(&plain), &[0.0; 3]);
+    for (body, other) in plain.frame().bodies.iter().zip(given.frame().bodies) {
+        near(&body.velocity, &[2.0, 0.0, 0.0]);
+        near(&body.velocity, &other.velocity);
+    }
+    assert_eq!(of_changed(&plain), Vec::<&String>::new());
+    // Velocities that are stated stay: the load and the tip turn about the pin.
+    let mut stated = crane(Value::Null, Value::Null);
+    for (body, speed) in [(1, 2.0), (2, 3.0)] {
+        stated["bodies"][body]["velocity"] = json!([speed, 0, 0]);
+        stated["bodies"][body]["angular_velocity"] = json!([0, 0, 1]);
+    }
+    near(&spins(&run(&stated)), &[0.0, 1.0, 1.0]);
+}
+
+/// A four-bar that is stated open, with a crank of that angle.
+fn open_four_bar(crank: f64, start: Value) -> Value {
+    let at = |angle: f64| json!({ "axis": [0, 0, 1], "angle": angle });
+    let bar = |name: &str, position: [f64; 3], angle: f64, half: f64| {
+        json!({ "name": name, "mass": 1.0, "inertia": { "principal": [0.001, 0.1, 0.1] }, "center_of_mass": [half, 0, 0],
+            "position": position, "orientation": at(angle) })
+    };
+    let hinge = |name: &str, [i, j]: [&str; 2], point_i: [f64; 3], point_j: [f64; 3]| {
+        json!({ "name": name, "type": "revolute", "body_i": i, "body_j": j, "point_i": point_i, "point_j": point_j,
+            "axis_i": [0, 0, 1], "axis_j": [0, 0, 1] })
+    };
+    let mut joints = vec![
+        hinge("A", ["ground", "c"], [0.0; 3], [0.0; 3]),
+        hinge("B", ["c", "k"], [0.5, 0.0, 0.0], [0.0; 3]),
+        hinge("C", ["k", "r"], [1.5, 0.0, 0.0], [1.0, 0.0, 0.0]),
+        hinge("D", ["ground", "r"], [1.5, 0.0, 0.0], [0.0; 3]),
+        hinge("own", ["ground", "o"], [5.0, 0.0, 0.0], [0.0; 3]),
+    ];
+    joints[0]["start"] = start;
+    if joints[0]["start"].is_null() {
+        joints[0].as_object_mut().unwrap().remove("start");
+    }
+    json!({ "name": "open", "bodies": [bar("c", [0.0; 3], crank, 0.25), bar("k", [0.2, 0.45, 0.0], 0.3, 0.75),
+        bar("r", [1.5, 0.0, 0.0], 1.3, 0.5), bar("o", [5.0, 0.0, 0.0], 0.0, 0.5)], "joints": joints })
+}
+
+/// A rate that is given of one joint says nothing of where bodies are: how far they are moved is told, and refused where it is far.
+#[test]
+fn a_start_that_gives_no_place_moves_no_body_unsaid() {
+    let moved = |run: &Simulation| {
+        run.notes().iter().find(|note| note.contains("bodies were moved by up to")).cloned()
+    };
+    let plain = run(&open_four_bar(1.2, Value::Null));
+    let told = moved(&plain).expect("it was open");
+    let turning = run(&open_four_bar(1.2, json!({ "rate": 1.0 })));
+    assert_eq!(moved(&turning), Some(told.clone()));
+    near(&spins(&turning)[..1], &[1.0]);
+    // A start of another mechanism changes nothing of this one.
+    let mut apart = open_four_bar(1.2, Value::Null);
+    apart["joints"][4]["start"] = json!({ "angle": 1.0, "rate": 2.0 });
+    let apart = run(&apart);
+    assert_eq!(moved(&apart), Some(told));
+    for (body, other) in apart.frame().bodies.iter().zip(plain.frame().bodies).take(3) {
+        assert_eq!(body.position, other.position);
+    }
+    // A given angle is closed with, whatever is stated.
+    assert_eq!(moved(&run(&open_four_bar(1.2, json!({ "angle": 0.1 })))), None);
+    for start in [Value::Null, json!({ "rate": 1.0 })] {
+        let mut far = open_four_bar(1.2, start);
+        far["bodies"][2]["position"] = json!([1.5, 0, 0]);
+        far["bodies"][2]["orientation"] = json!({ "axis": [0, 0, 1], "angle": -1.8 });
+        let refused = Simulation::new(&Scene::from_json(&far.to_string()).unwrap()).unwrap_err();
+        assert!(refused.to_string().contains("count as a correction"), "{refused}");
+    }
+}

@@ -163,3 +163,23 @@ fn a_run_does_not_go_on_in_one_that_ends_before() {
     assert!(matches!(error, EngineError::TimeOutside { time: 1.5, to: 1.0, .. }), "{error}");
     assert_eq!(after.time(), 0.0);
 }
+
+#[test]
+fn a_constant_that_is_stated_shortly_is_changed_where_it_stands() {
+    let mut value: serde_json::Value =
+        serde_json::from_str(&catalogue::scene("simple-pendulum").unwrap().to_json()).unwrap();
+    let body = value["bodies"][0]["name"].clone();
+    value["loads"] = serde_json::json!([{ "name": "push", "type": "force", "body": body, "force": [1, 2, 3] },
+        { "name": "twist", "type": "torsion", "joint": "pin", "torque": 4.0 }]);
+    let short = scene(&value.to_string());
+    let (five, six) = (serde_json::json!(5.0), serde_json::json!(6.0));
+    let changed = short.changed([], [("/loads/0/force/2", &five), ("/loads/1/torque", &six)]).unwrap();
+    let written = serde_json::to_value(&changed).unwrap();
+    assert_eq!(written["loads"][0]["force"]["vector"], serde_json::json!([1.0, 2.0, 5.0]));
+    assert_eq!(written["loads"][1]["torque"]["value"], 6.0);
+    let long =
+        short.changed([], [("/loads/0/force/vector/2", &five), ("/loads/1/torque/value", &six)]).unwrap();
+    assert_eq!(changed, long);
+    let beyond = short.changed([], [("/loads/0/force/3", &five)]).unwrap_err().to_string();
+    assert!(beyond.contains("there is nothing"), "{beyond}");
+}

@@ -230,3 +230,80 @@ fn seconds_that_are_added_up_end_at_the_end_and_at_output_times() {
     while let Ok(true) = run.advance(target) {}
     assert!(run.time() > 0.3);
 }
+
+fn of_text(value: &serde_json::Value) -> Run {
+    let scene = Scene::from_json(&value.to_string()).expect("a scene");
+    Run::start("one".into(), scene, &SceneChange::default(), SceneSource::Scene("it".into()), 1 << 20)
+        .expect("runs")
+}
+
+#[test]
+fn a_run_that_an_event_stops_has_ended() {
+    let mut scene =
+        serde_json::to_value(catalogue::scene("simple-pendulum").expect("a scene")).expect("JSON");
+    let low = serde_json::json!({ "name": "low", "of": { "type": "angle", "joint": "pin" }, "value": 1.0, "stop": true });
+    scene["events"] = serde_json::json!([low]);
+    let (mut stepped, mut played) = (of_text(&scene), of_text(&scene));
+    let mut calls = 0;
+    while stepped.advance(5.0).expect("runs") {
+        calls += 1;
+        assert!(calls < 10_000, "it goes on for ever at {} s", stepped.time());
+    }
+    assert!(told(&stepped).finished && stepped.time() < 1.0, "{}", stepped.time());
+    assert!(!stepped.advance(5.0).expect("runs") && !stepped.step().expect("runs"));
+    played.play(1.0, 0.0);
+    tick(&mut played, 5.0);
+    assert!(!played.playing() && told(&played).finished);
+}
+
+/// A disk that a driver turns against a spring.
+fn wound(start: f64, rate: f64) -> serde_json::Value {
+    serde_json::json!({
+        "name": "disk", "gravity": [0, 0, 0],
+        "bodies": [{ "name": "d", "mass": 2, "inertia": { "principal": [0.2, 0.2, 0.3] } }],
+        "joints": [{ "name": "p", "type": "revolute", "body_i": "ground", "body_j": "d", "point": [0, 0, 0], "axis": [0, 0, 1] }],
+        "drivers": [{ "type": "angle", "name": "m", "joint": "p", "motion": { "kind": "ramp", "start": start, "rate": rate } }],
+        "loads": [{ "name": "k", "type": "torsion", "joint": "p", "stiffness": 0.05 }],
+        "simulation": { "duration": 20, "every": 0.01 },
+    })
+}
+
+#[test]
+fn turns_of_a_driver_count_where_its_numbers_are_changed_in_mid_run() {
+    for (place, value, start, rate) in [
+        ("rate", 5.5, 0.0, 5.5),
+        ("start", std::f64::consts::TAU, std::f64::consts::TAU, 5.0),
+        ("rate", 5.01, 0.0, 5.01),
+    ] {
+        let mut run = of_text(&wound(0.0, 5.0));
+        while run.advance(12.5).expect("runs") {}
+        let places = serde_json::json!({ "places": { format!("/drivers/0/motion/{place}"): value }, "then": "continue" });
+        change(&mut run, places).expect("goes on");
+        let turned = told(&run).notes.iter().any(|note| note.contains("its angle goes on at"));
+        assert_eq!(turned, value != 5.01, "{:?}", told(&run).notes);
+        while run.advance(13.5).expect("runs") {}
+        let found = told(&run).forces.iter().find(|force| force.joint == "m").expect("a driver").moment[2];
+        let right = 0.05 * (start + rate * 13.5);
+        assert!((found - right).abs() < 1e-9, "{place} {value}: {found} instead of {right}");
+    }
+}
+
+#[test]
+fn a_pull_holds_its_point_where_the_centre_of_mass_is_another() {
+    let mut run = of_text(&serde_json::json!({
+        "name": "b", "gravity": [0, 0, 0],
+        "bodies": [{ "name": "d", "mass": 2, "inertia": { "principal": [0.1, 0.2, 0.3] } }],
+        "simulation": { "duration": 10, "every": 0.01 },
+    }));
+    let point = [0.3, 0.1, -0.2];
+    let pull = Drag { body: "d".into(), point, to: point, stiffness: Some(100.0) };
+    run.drag(Some(pull), 0.0).expect("it is held");
+    for places in [
+        serde_json::json!({ "/bodies/0/center_of_mass/0": 0.4 }),
+        serde_json::json!({ "/bodies/0/inertia/principal/0": 0.25, "/bodies/0/center_of_mass/2": -0.1 }),
+    ] {
+        change(&mut run, serde_json::json!({ "places": places, "then": "continue" })).expect("goes on");
+        let energy = told(&run).energy;
+        assert!(energy.abs() < 1e-12, "the spring is stretched by nobody: {energy} J");
+    }
+}

@@ -90,6 +90,10 @@ export const toldOfRuns: Record<string, string> = {
   // Notes of a scene.
   "positions violated the constraints by {violated}; bodies were moved by up to {moved} onto them":
     "Die Lagen verletzten die Zwangsbedingungen um {violated}; Körper wurden um bis zu {moved} auf sie verschoben",
+  'joint "{joint}": its angle goes on at {found} rad, as drivers, gears and screws say; it stood at {given} rad':
+    "Gelenk „{joint}“: Sein Winkel geht bei {found} rad weiter, wie Antriebe, Zahnräder und Schrauben es sagen; er stand bei {given} rad",
+  'gear "{gear}": with "{leader}" at {given} rad, where it is stated, "{joint}" starts at {found} rad, not at the {kept} rad where its bodies are stated':
+    "Zahnrad „{gear}“: Mit „{leader}“ bei {given} rad, wo es angegeben ist, beginnt „{joint}“ bei {found} rad, nicht bei den {kept} rad, wo seine Körper angegeben sind",
   "velocities violated the constraints by {rate}; they were changed by up to {changed} onto them":
     "Die Geschwindigkeiten verletzten die Zwangsbedingungen um {rate}; sie wurden um bis zu {changed} auf sie geändert",
   "velocities violated the constraints by {rate}; they were changed by up to {changed} onto them; {reason}":
