@@ -95,6 +95,14 @@ fn what_is_wrong_is_named_with_its_line() {
         (arm.replace("</robot>", ""), "not-xml", ""),
         (arm.replace("<child link=\"lower\"/>", "<child link=\"upper\"/>"), "not-a-robot", "line=17"),
         (arm.replace("<mass value=\"1\"/>", "<mass value=\"0\"/>"), "not-a-robot", "line=14"),
+        (arm.replace("<mass value=\"2\"/>", "<mass value=\"-2\"/>"), "not-a-robot", "line=6"),
+        (
+            arm.replace("<mass value=\"2\"/>", "<mass value=\"2\"/><mass value=\"3\"/>"),
+            "not-a-robot",
+            "line=6",
+        ),
+        (arm.replacen("izz=", "izx=", 1), "not-a-robot", ""),
+        (arm.replace("name=\"lower\"", "name=\"upper\""), "not-a-robot", ""),
     ];
     for (urdf, code, place) in cases {
         let (status, problem) = import(urdf, json!({}));
@@ -204,4 +212,64 @@ fn the_inertia_of_a_part_without_mass_is_told_to_be_left_out() {
 </robot>"#;
     let told = imported(robot, "{}");
     assert!(left_out(&told, "what").contains(&(4, "it has no mass: its inertia is left out")), "{told:#}");
+}
+
+#[test]
+fn attributes_that_mean_nothing_are_told_and_quaternions_turn() {
+    let robot = r#"<robot name="r">
+<link name="base"/>
+<link name="a"><inertial><origin xyz="0.1 0 0" quat_xyzw="0 0 0.6 0.8"/><mass value="1"/>
+<inertia ixx="1" iyy="2" izz="2.5" iyx="0.3"/></inertial></link>
+<joint name="j" type="revolute"><parent link="base"/><child link="a"/><axis xyz="0 0 1" rpy="0 1 0"/><dynamics damp="3"/></joint>
+<link name="f"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link>
+<joint name="free" type="floating"><parent link="a"/><child link="f"/><dynamics damping="3"/></joint>
+</robot>"#;
+    let told = imported(robot, "{}");
+    let left = left_out(&told, "what");
+    for (line, what) in [
+        (4, "\"iyx\" of <inertia>"),
+        (5, "\"rpy\" of <axis>"),
+        (5, "\"damp\" of <dynamics>"),
+        (7, "<dynamics>"),
+    ] {
+        assert!(
+            left.iter().any(|(at, said)| *at == line && said.starts_with(what)),
+            "{line} {what}: {left:?}"
+        );
+    }
+    // A turn of 2 atan(3/4) about z, of c = 0.28 and s = 0.96.
+    let tensor = &told["scene"]["bodies"][0]["inertia"]["tensor"];
+    let found: Vec<f64> = [(0, 0), (0, 1), (1, 1)].map(|(i, j)| tensor[i][j].as_f64().unwrap()).into();
+    for (found, right) in found.iter().zip([1.0 + 0.96 * 0.96, -0.28 * 0.96, 2.0 - 0.96 * 0.96]) {
+        assert!((found - right).abs() < 1e-12, "{tensor}");
+    }
+}
+
+#[test]
+fn loads_and_drivers_act_on_parts_of_bodies() {
+    let robot = r#"<robot name="r">
+<link name="base"/>
+<link name="arm"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link>
+<link name="tool"/>
+<joint name="j" type="revolute"><parent link="base"/><child link="arm"/><axis xyz="0 1 0"/></joint>
+<joint name="k" type="fixed"><parent link="arm"/><child link="tool"/><origin xyz="0 0 2" rpy="0 0 1.5707963267948966"/></joint>
+</robot>"#;
+    let side_car = json!({ "loads": [
+        { "name": "push", "type": "force", "body": "tool", "point": [0.5, 0, 0.1], "force": [0, 0, 5] },
+        { "name": "thrust", "type": "force", "body": "tool", "force": [3, 0, 0], "frame": "body" },
+        { "name": "rope", "type": "spring", "body_i": "ground", "point_i": [0, 0, 9], "body_j": "tool", "point_j": [1, 0, 0],
+          "stiffness": 10 } ],
+        "drivers": [{ "name": "look", "type": "vector", "body": "tool", "vector": [1, 0, 0], "motion": [0, 1, 0] }] });
+    let scene = &imported(robot, &side_car.to_string())["scene"];
+    let near = |found: &Value, right: [f64; 3]| {
+        let off = (0..3).map(|k| (found[k].as_f64().unwrap() - right[k]).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-12, "{found} instead of {right:?}");
+    };
+    assert!(scene["loads"].as_array().unwrap()[..2].iter().all(|load| load["body"] == "arm"), "{scene:#}");
+    near(&scene["loads"][0]["point"], [0.0, 0.5, 2.1]);
+    near(&scene["loads"][0]["force"]["vector"], [0.0, 0.0, 5.0]);
+    near(&scene["loads"][1]["force"]["vector"], [0.0, 3.0, 0.0]);
+    near(&scene["loads"][2]["point_j"], [0.0, 1.0, 2.0]);
+    near(&scene["drivers"][0]["vector"], [0.0, 1.0, 0.0]);
+    assert_eq!((&scene["loads"][2]["body_j"], &scene["drivers"][0]["body"]), (&json!("arm"), &json!("arm")));
 }

@@ -9,32 +9,15 @@ use triad_scene::{
     AxisRows, Body, Friction, GROUND, Inertia, Joint, JointKind, Load, Orientation, Scene, Shape,
 };
 
+use crate::attached::Links;
 use crate::follow::{StartOf, starts};
 use crate::omissions::{OmittedItem, UrdfError, go_on};
+use crate::placed::{Carrier, Placed};
 use crate::read::{Geometry, JointType, Link, Robot, UrdfJoint, Visual};
 use crate::side_car::{Root, SideCar};
 
 /// Friction reaches three quarters at this speed, m/s or rad/s.
 const SMOOTHING: f64 = 1e-2;
-
-/// A link in its place.
-struct Placed<'a> {
-    link: &'a Link,
-    /// Its frame in the world.
-    pose: Isometry3<f64>,
-    velocity: Vector3<f64>,
-    spin: Vector3<f64>,
-    /// The joint that carries it, and its position.
-    joint: Option<(&'a UrdfJoint, f64)>,
-    /// The body that it is part of, and its frame in that of the body.
-    carrier: Carrier,
-}
-
-#[derive(Clone)]
-struct Carrier {
-    name: String,
-    frame: Isometry3<f64>,
-}
 
 pub(super) fn scene(
     robot: &Robot,
@@ -49,8 +32,9 @@ pub(super) fn scene(
     if let Some(gravity) = side_car.gravity {
         scene.gravity = gravity;
     }
-    scene.drivers.clone_from(&side_car.drivers);
-    scene.loads.clone_from(&side_car.loads);
+    let links = Links(&placed);
+    scene.drivers = side_car.drivers.iter().map(|driver| links.driver(driver)).collect();
+    scene.loads = side_car.loads.iter().map(|load| links.load(load)).collect::<Result<_, _>>()?;
     scene.simulation = side_car.simulation.clone();
     for link in &placed {
         add_body(&mut scene, link, left_out);
@@ -64,12 +48,14 @@ pub(super) fn scene(
     tell_idle_starts(robot, side_car, left_out);
     for joint in &side_car.joints {
         go_on(wanted)?;
-        scene.joints.push(closing(joint, &placed));
+        scene.joints.push(links.joint(joint));
     }
     Ok(scene)
 }
 
 fn check_names(robot: &Robot, side_car: &SideCar, wanted: &dyn Fn() -> bool) -> Result<(), UrdfError> {
+    named_once("link", robot.links.iter().map(|link| (link.name.as_str(), link.line)))?;
+    named_once("joint", robot.joints.iter().map(|joint| (joint.name.as_str(), joint.line)))?;
     let joints: BTreeSet<&str> = robot.joints.iter().map(|joint| joint.name.as_str()).collect();
     let mut links: BTreeSet<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
     links.insert(GROUND);
@@ -89,6 +75,14 @@ fn check_names(robot: &Robot, side_car: &SideCar, wanted: &dyn Fn() -> bool) -> 
         known("link", &links, &joint.body_j)?;
     }
     Ok(())
+}
+
+fn named_once<'a>(what: &str, mut all: impl Iterator<Item = (&'a str, u32)>) -> Result<(), UrdfError> {
+    let mut names = BTreeSet::new();
+    all.find(|(name, _)| !names.insert(*name)).map_or(Ok(()), |(name, line)| {
+        let what = format!("there are two {what}s \"{name}\"");
+        Err(UrdfError::Wrong { line, what, hint: "give each a name of its own" })
+    })
 }
 
 /// Tells which positions and velocities of the side-car belong to joints that one number does not place.
@@ -316,7 +310,10 @@ fn add_joint(scene: &mut Scene, placed: &Placed, all: &[Placed], left_out: &mut 
         JointType::Prismatic => JointKind::Prismatic,
         JointType::Fixed => JointKind::Fixed,
         JointType::Planar => JointKind::Planar,
-        JointType::Floating => return,
+        JointType::Floating => {
+            add_friction(scene, joint, left_out);
+            return;
+        }
     };
     let on_parent = parent.carrier.frame * joint.origin;
     let mut written = Joint::new(&joint.name, kind, &parent.carrier.name, &placed.carrier.name)
@@ -351,6 +348,12 @@ fn add_friction(scene: &mut Scene, joint: &UrdfJoint, left_out: &mut Vec<Omitted
         }
     };
     scene.add(load);
+    if joint.friction != 0.0 {
+        let what = format!(
+            "<dynamics>: dry friction is smoothed, and reaches three quarters at {SMOOTHING} m/s or rad/s"
+        );
+        left_out.push(OmittedItem { line: joint.line, of: format!("joint {of}"), what });
+    }
 }
 
 /// Joints that follow others.
@@ -371,21 +374,6 @@ fn add_gears(scene: &mut Scene, robot: &Robot, left_out: &mut Vec<OmittedItem>) 
             left_out.push(OmittedItem { line: joint.line, of: format!("joint {}", joint.name), what });
         }
     }
-}
-
-/// A joint of the side-car, whose links may be parts of bodies.
-fn closing(joint: &Joint, all: &[Placed]) -> Joint {
-    let mut joint = joint.clone();
-    let on_body = |name: &mut String, point: &mut Option<[f64; 3]>, axis: &mut Option<[f64; 3]>| {
-        let Some(placed) = all.iter().find(|placed| placed.link.name == *name) else { return };
-        *name = placed.carrier.name.clone();
-        let frame = placed.carrier.frame;
-        *point = point.map(|p| (frame * nalgebra::Point3::from(p)).into());
-        *axis = axis.map(|a| (frame * Vector3::from(a)).into());
-    };
-    on_body(&mut joint.body_i, &mut joint.point_i, &mut joint.axis_i);
-    on_body(&mut joint.body_j, &mut joint.point_j, &mut joint.axis_j);
-    joint
 }
 
 /// A name for files and addresses.

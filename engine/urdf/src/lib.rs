@@ -11,6 +11,10 @@ mod read;
 
 mod follow;
 
+mod placed;
+
+mod attached;
+
 mod convert;
 
 pub use omissions::{MAX_LINKS, MAX_TEXT, OmittedItem, UrdfError};

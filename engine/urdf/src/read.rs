@@ -1,6 +1,6 @@
 //! From XML to links and joints; every number checked where it stands.
 
-use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::omissions::{MAX_LINKS, OmittedItem, UrdfError, go_on};
@@ -85,6 +85,17 @@ impl Report<'_> {
         u32::try_from(before + 1).unwrap_or(u32::MAX)
     }
 
+    /// Tells attributes that an element of URDF does not have: a misspelt one would be taken for one that is missing.
+    fn attributes(&mut self, node: Node, of: &str, known: &[&str]) {
+        for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
+            let name = attribute.name();
+            if !known.contains(&name) {
+                let what = format!("\"{name}\" of <{}> has no meaning here", node.tag_name().name());
+                self.leave_out(node, of, what);
+            }
+        }
+    }
+
     fn leave_out(&mut self, node: Node, of: &str, what: String) {
         self.left_out.push(OmittedItem { line: self.line(node), of: of.to_owned(), what });
     }
@@ -160,9 +171,10 @@ fn link(node: Node, report: &mut Report) -> Result<Link, UrdfError> {
     let name = attribute(node, "name")?.to_owned();
     let of = format!("link {name}");
     let mut link = Link { line: report.line(node), name, inertial: None, shapes: Vec::new() };
+    once(node, &["inertial"])?;
     for part in node.children().filter(Node::is_element) {
         match part.tag_name().name() {
-            "inertial" => link.inertial = Some(inertial(part)?),
+            "inertial" => link.inertial = Some(inertial(part, &of, report)?),
             "visual" => link.shapes.extend(visual(part, &of, report)?),
             "collision" => {}
             other => report.leave_out(part, &of, format!("<{other}> has no meaning for a scene")),
@@ -175,13 +187,20 @@ fn link(node: Node, report: &mut Report) -> Result<Link, UrdfError> {
     Ok(link)
 }
 
-fn inertial(node: Node) -> Result<Inertial, UrdfError> {
-    let origin = origin(node)?;
+fn inertial(node: Node, of: &str, report: &mut Report) -> Result<Inertial, UrdfError> {
+    const MOMENTS: [&str; 6] = ["ixx", "iyy", "izz", "ixy", "ixz", "iyz"];
+    once(node, &["origin", "mass", "inertia"])?;
+    let origin = origin(node, of, report)?;
     let mass_node = child(node, "mass")?;
+    report.attributes(mass_node, of, &["value"]);
     let mass = number(mass_node, "value")?;
+    if mass < 0.0 {
+        return Err(wrong(mass_node, format!("the mass of {of} is {mass}"), "a mass is never negative"));
+    }
     let given = child(node, "inertia")?;
-    let [xx, xy, xz, yy, yz, zz] =
-        ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].map(|name| optional(given, name, 0.0));
+    report.attributes(given, of, &MOMENTS);
+    let [xx, yy, zz] = ["ixx", "iyy", "izz"].map(|name| number(given, name));
+    let [xy, xz, yz] = ["ixy", "ixz", "iyz"].map(|name| optional(given, name, 0.0));
     let (xx, xy, xz, yy, yz, zz) = (xx?, xy?, xz?, yy?, yz?, zz?);
     let own = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
     let turn = origin.rotation.to_rotation_matrix();
@@ -189,6 +208,7 @@ fn inertial(node: Node) -> Result<Inertial, UrdfError> {
 }
 
 fn visual(node: Node, of: &str, report: &mut Report) -> Result<Option<Visual>, UrdfError> {
+    once(node, &["origin", "geometry"])?;
     let geometry = child(node, "geometry")?;
     let Some(shape) = geometry.children().find(Node::is_element) else {
         return Err(wrong(
@@ -210,7 +230,7 @@ fn visual(node: Node, of: &str, report: &mut Report) -> Result<Option<Visual>, U
             return Ok(None);
         }
     };
-    Ok(Some(Visual { line: report.line(node), origin: origin(node)?, geometry }))
+    Ok(Some(Visual { line: report.line(node), origin: origin(node, of, report)?, geometry }))
 }
 
 fn joint(node: Node, report: &mut Report) -> Result<UrdfJoint, UrdfError> {
@@ -227,18 +247,25 @@ fn joint(node: Node, report: &mut Report) -> Result<UrdfJoint, UrdfError> {
             return Err(wrong(node, what, "use revolute, continuous, prismatic, fixed, floating or planar"));
         }
     };
+    once(node, &["origin", "parent", "child", "axis", "dynamics", "mimic"])?;
     let mut axis = Vector3::x();
     let (mut damping, mut friction, mut mimic) = (0.0, 0.0, None);
     for part in node.children().filter(Node::is_element) {
         let mut leave = |what: &str| report.leave_out(part, &of, what.to_owned());
         match part.tag_name().name() {
-            "origin" | "parent" | "child" => {}
-            "axis" => axis = vector(part, "xyz")?,
+            "origin" => {}
+            "parent" | "child" => report.attributes(part, &of, &["link"]),
+            "axis" => {
+                report.attributes(part, &of, &["xyz"]);
+                axis = vector(part, "xyz")?;
+            }
             "dynamics" => {
+                report.attributes(part, &of, &["damping", "friction"]);
                 damping = optional(part, "damping", 0.0)?;
                 friction = optional(part, "friction", 0.0)?;
             }
             "mimic" => {
+                report.attributes(part, &of, &["joint", "multiplier", "offset"]);
                 let factor = optional(part, "multiplier", 1.0)?;
                 mimic = Some((attribute(part, "joint")?.to_owned(), factor, optional(part, "offset", 0.0)?));
             }
@@ -258,7 +285,7 @@ fn joint(node: Node, report: &mut Report) -> Result<UrdfJoint, UrdfError> {
     Ok(UrdfJoint {
         line: report.line(node),
         kind,
-        origin: origin(node)?,
+        origin: origin(node, &of, report)?,
         axis: axis.try_normalize(1e-12).unwrap_or_else(Vector3::x),
         parent: end("parent")?,
         child: end("child")?,
@@ -269,17 +296,41 @@ fn joint(node: Node, report: &mut Report) -> Result<UrdfJoint, UrdfError> {
     })
 }
 
-/// The frame of an element: xyz, then roll, pitch and yaw about fixed axes.
-fn origin(node: Node) -> Result<Isometry3<f64>, UrdfError> {
+/// The frame of an element: xyz, then roll, pitch and yaw about fixed axes, or a quaternion.
+fn origin(node: Node, of: &str, report: &mut Report) -> Result<Isometry3<f64>, UrdfError> {
     let Some(origin) = node.children().find(|part| part.has_tag_name("origin")) else {
         return Ok(Isometry3::identity());
     };
+    report.attributes(origin, of, &["xyz", "rpy", "quat_xyzw"]);
     let or_zero = |name: &str| match origin.attribute(name) {
         Some(_) => vector(origin, name),
         None => Ok(Vector3::zeros()),
     };
     let (xyz, rpy) = (or_zero("xyz")?, or_zero("rpy")?);
-    Ok(Isometry3::from_parts(Translation3::from(xyz), UnitQuaternion::from_euler_angles(rpy.x, rpy.y, rpy.z)))
+    let mut turn = UnitQuaternion::from_euler_angles(rpy.x, rpy.y, rpy.z);
+    if origin.has_attribute("quat_xyzw") {
+        let [x, y, z, w] = numbers(origin, "quat_xyzw", "four numbers", "write them like \"0 0 0 1\"")?;
+        if origin.has_attribute("rpy") {
+            let what = "<origin> is turned by rpy and by quat_xyzw".to_owned();
+            return Err(wrong(origin, what, "keep one of them"));
+        }
+        let quaternion = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9);
+        turn = quaternion.ok_or_else(|| {
+            wrong(origin, "quat_xyzw is no rotation".to_owned(), "write one like \"0 0 0 1\"")
+        })?;
+    }
+    Ok(Isometry3::from_parts(Translation3::from(xyz), turn))
+}
+
+/// Refuses parts that an element has twice: which of them is meant is not known.
+fn once(node: Node, names: &[&str]) -> Result<(), UrdfError> {
+    for name in names {
+        if let Some(second) = node.children().filter(|part| part.has_tag_name(*name)).nth(1) {
+            let what = format!("<{}> has <{name}> twice", node.tag_name().name());
+            return Err(wrong(second, what, "keep one of them"));
+        }
+    }
+    Ok(())
 }
 
 fn wrong(node: Node, what: String, hint: &'static str) -> UrdfError {
@@ -313,14 +364,19 @@ fn optional(node: Node, name: &str, otherwise: f64) -> Result<f64, UrdfError> {
 }
 
 fn vector(node: Node, name: &str) -> Result<Vector3<f64>, UrdfError> {
+    numbers(node, name, "three numbers", "write them like \"0 0 1\"").map(Vector3::from)
+}
+
+/// So many numbers; `many` says how many, `like` how they are written.
+fn numbers<const N: usize>(
+    node: Node,
+    name: &str,
+    many: &str,
+    like: &'static str,
+) -> Result<[f64; N], UrdfError> {
     let text = attribute(node, name)?;
-    let numbers: Vec<f64> = text.split_whitespace().filter_map(|part| part.parse().ok()).collect();
-    match numbers[..] {
-        [x, y, z] if text.split_whitespace().count() == 3 && [x, y, z].iter().all(|n| n.is_finite()) => {
-            Ok(Vector3::new(x, y, z))
-        }
-        _ => {
-            Err(wrong(node, format!("{name} is \"{text}\", not three numbers"), "write them like \"0 0 1\""))
-        }
-    }
+    let read: Option<Vec<f64>> =
+        text.split_whitespace().map(|part| part.parse().ok().filter(|x: &f64| x.is_finite())).collect();
+    read.and_then(|numbers| numbers.try_into().ok())
+        .ok_or_else(|| wrong(node, format!("{name} is \"{text}\", not {many}"), like))
 }
