@@ -3,6 +3,7 @@
 
 use triad_engine::scene::expression::{Expression, begins_factor, notation};
 
+use super::enclosed::{enclosed, transposition};
 use super::number;
 use super::units::Unit;
 
@@ -52,25 +53,70 @@ pub(crate) fn cells(text: &str, rows: usize, columns: usize) -> Option<Cells> {
     // Lines are rows; the plain notation would take them for spaces.
     let lines: Vec<String> =
         text.trim().lines().map(notation::plain).filter(|line| !line.is_empty()).collect();
-    let plain = unnamed(&lines.join("\n"));
+    let (plain, transposed) = unnamed(&lines.join("\n"));
     let wanted = rows * columns;
     if wanted == 3
         && columns == 1
+        && !plain.contains('=')
         && let Some(cells) = in_unit_vectors(&plain)
     {
         return Some(cells);
     }
-    let (inner, unit) = around(&plain);
-    let texts = (columns > 1).then(|| matrix(&inner, rows, columns)).flatten();
-    let texts = texts.or_else(|| flat(&inner, wanted)).or_else(|| {
-        // `[1], [2], [3]`
-        flat(&inner.replace(['[', ']', '(', ')', '{', '}'], " "), wanted)
-    });
-    texts.map(|texts| Cells { texts, unit })
+    let array = enclosed(&plain)?;
+    let texts = if columns == 1 {
+        vector(array.inner, wanted)
+    } else if transposed != array.transposed {
+        matrix(array.inner, columns, rows).map(|texts| transpose(&texts, rows))
+    } else {
+        matrix(array.inner, rows, columns).or_else(|| vector(array.inner, wanted))
+    };
+    let texts = texts?.iter().map(|text| array.with_factors(text)).collect();
+    Some(Cells { texts, unit: array.unit.clone() })
 }
 
-/// Without the name of an array, `dtype=…`, a label and a sign of transposition.
-fn unnamed(plain: &str) -> String {
+/// So many entries in one row or column, in the order of their labels if they have such.
+fn vector(inner: &str, wanted: usize) -> Option<Vec<String>> {
+    let texts = flat(inner, wanted).or_else(|| {
+        // `[1], [2], [3]`
+        let alone = inner
+            .split([',', ';', '\n'])
+            .all(|piece| notation::without_brackets(piece.trim()) != piece.trim());
+        let spaced = !inner.contains([',', ';', '\n']) && inner.starts_with(['[', '(', '{']);
+        (alone || spaced).then(|| flat(&inner.replace(['[', ']', '(', ')', '{', '}'], " "), wanted)).flatten()
+    })?;
+    let order = order(&texts)?;
+    Some(order.into_iter().map(|k| texts[k].clone()).collect())
+}
+
+/// In which order labelled entries are meant, `z = 3, x = 1, y = 2`: as they stand where they have no labels or others. `None` if one is
+/// labelled twice.
+pub(crate) fn order(texts: &[String]) -> Option<Vec<usize>> {
+    const LETTERS: [[char; 3]; 3] = [['x', 'y', 'z'], ['i', 'j', 'k'], ['u', 'v', 'w']];
+    let as_they_stand = || Some((0..texts.len()).collect());
+    let labels: Option<Vec<&str>> =
+        texts.iter().map(|text| text.split_once(['=', ':']).map(|(label, _)| label.trim())).collect();
+    let Some(labels) = labels.filter(|labels| !labels.is_empty()) else { return as_they_stand() };
+    let by_letter = |letters: &[char; 3]| -> Option<Vec<usize>> {
+        labels
+            .iter()
+            .map(|label| letters.iter().position(|letter| label.to_lowercase().ends_with(*letter)))
+            .collect()
+    };
+    let number = |label: &&str| label.trim_start_matches(|c: char| !c.is_ascii_digit()).parse::<usize>().ok();
+    let by_number = || labels.iter().map(number).collect::<Option<Vec<_>>>();
+    let Some(places) = LETTERS.iter().find_map(by_letter).or_else(by_number) else { return as_they_stand() };
+    let mut order: Vec<usize> = (0..texts.len()).collect();
+    order.sort_by_key(|k| places[*k]);
+    order.windows(2).all(|pair| places[pair[0]] < places[pair[1]]).then_some(order)
+}
+
+/// The entries of `rows` rows, of those column by column.
+fn transpose(texts: &[String], rows: usize) -> Vec<String> {
+    (0..rows).flat_map(|row| texts.iter().skip(row).step_by(rows).cloned()).collect()
+}
+
+/// Without the name of an array, `dtype=…`, a label and a sign of transposition; whether there was such a sign.
+fn unnamed(plain: &str) -> (String, bool) {
     let mut text = plain;
     if let Some(at) = text.find('=').filter(|at| text[..*at].find(['[', '(', ',']).is_none()) {
         // `F = (1, 2, 3)`, but not `x = 1, y = 2, z = 3`.
@@ -79,12 +125,12 @@ fn unnamed(plain: &str) -> String {
         }
     }
     let mut text = text.trim_end_matches(['.', ';']);
-    for transposed in ["^T", "^(T)", "^t", "'", ".T", ".transpose()", "^ top", "^(top)"] {
-        if let Some(before) =
-            text.strip_suffix(transposed).filter(|before| before.trim_end().ends_with([']', ')', '>']))
-        {
-            text = before.trim();
-        }
+    let end = text.rfind([']', ')', '>']).map_or(0, |at| at + 1);
+    // `.transpose()` ends with a bracket of its own.
+    let end = text.find(".transpose()").unwrap_or(end);
+    let (rest, transposed) = transposition(text[end..].trim());
+    if rest.is_empty() {
+        text = &text[..end];
     }
     for name in NAMES {
         if let Some(rest) =
@@ -93,63 +139,17 @@ fn unnamed(plain: &str) -> String {
             text = rest.trim();
         }
     }
-    match text.find("dtype") {
+    let array = match text.find("dtype") {
         Some(at) => text[..at].trim_end().trim_end_matches(',').to_owned() + ")",
         None => text.to_owned(),
-    }
+    };
+    (array, transposed && rest.is_empty())
 }
 
 /// The bars beside the rows of a matrix, `| 1 0 |`.
 fn without_bars(line: &str) -> &str {
     let inner = line.strip_prefix('|').and_then(|rest| rest.strip_suffix('|'));
     inner.filter(|inner| !inner.contains('|')).unwrap_or(line).trim()
-}
-
-/// What stands in the outermost brackets, and the unit behind them.
-fn around(plain: &str) -> (String, String) {
-    let mut text = plain.trim();
-    let mut unit = String::new();
-    if let Some(end) = text.rfind([')', ']', '}', '>'])
-        && text.starts_with(['(', '[', '{', '<'])
-    {
-        let behind = text[end + 1..].trim();
-        let transposed = ["^T", "^(T)", "^t", "'"].iter().find_map(|mark| behind.strip_prefix(mark));
-        let behind = transposed.unwrap_or(behind).trim().trim_start_matches('*').trim();
-        let is_unit =
-            behind.starts_with(|c: char| c.is_alphabetic() || "°%".contains(c)) || behind.starts_with("1/");
-        if is_unit {
-            behind.clone_into(&mut unit);
-            text = &text[..=end];
-            // `(1, 2, 3) (N m)` and `(1, 2, 3) kg/(m s)` end with a bracket of the unit, which is found below.
-        } else if behind.is_empty()
-            && let Some((value, bracket)) = unit_in_bracket(text)
-        {
-            unit = bracket;
-            text = value;
-        }
-    }
-    loop {
-        let inner = notation::without_brackets(text);
-        if inner == text {
-            return (text.to_owned(), unit);
-        }
-        text = inner;
-    }
-}
-
-/// `(1, 2, 3) [N]`, `(1, 2, 3) kg/(m s)`: the array, and the unit that ends with a bracket.
-fn unit_in_bracket(text: &str) -> Option<(&str, String)> {
-    let mut depth = 0usize;
-    let end = text.char_indices().find_map(|(k, c)| {
-        match c {
-            '(' | '[' | '{' | '<' => depth += 1,
-            ')' | ']' | '}' | '>' => depth = depth.saturating_sub(1),
-            _ => return None,
-        }
-        (depth == 0).then_some(k + c.len_utf8())
-    })?;
-    let behind = text[end..].trim();
-    behind.contains(|c: char| c.is_alphabetic()).then(|| (&text[..end], behind.to_owned()))
 }
 
 /// Rows by lines, semicolons or brackets, entries as in a vector.
@@ -326,6 +326,29 @@ mod tests {
     }
 
     #[test]
+    fn a_factor_and_labels_belong_to_all_entries() {
+        for (text, values) in [
+            ("-(1, -2.5, 3)", [-1.0, 2.5, -3.0]),
+            ("2*(1, -2.5, 3)", [2.0, -5.0, 6.0]),
+            ("1/2 (1, -2.5, 3)", [0.5, -1.25, 1.5]),
+            ("sqrt(4)*[1, -2.5, 3]", [2.0, -5.0, 6.0]),
+            ("F = -[1 -2.5 3]", [-1.0, 2.5, -3.0]),
+            ("(1, -2.5, 3)/2", [0.5, -1.25, 1.5]),
+            ("-(1, -2.5, 3)*10^3", [-1e3, 2.5e3, -3e3]),
+            ("(1+1, 1/2, -3)/2", [1.0, 0.25, -1.5]),
+            ("z = 3, y = 2, x = 1", [1.0, 2.0, 3.0]),
+            ("Fx=1, Fz=3, Fy=2", [1.0, 2.0, 3.0]),
+            ("q2 = 2; q1 = 1; q3 = 3", [1.0, 2.0, 3.0]),
+            ("a = 3, b = 2, c = 1", [3.0, 2.0, 1.0]),
+        ] {
+            assert_eq!(read(text, 3, 1), (values.to_vec(), String::new()), "{text}");
+        }
+        assert_eq!(read("-(1, 2, 3)*10^3 N", 3, 1), (vec![-1e3, -2e3, -3e3], "N".to_owned()));
+        assert_eq!(read("(1, 2, 3)/4 N m", 3, 1), (vec![0.25, 0.5, 0.75], "N m".to_owned()));
+        assert_eq!(cells("-(1.50, -2, 3)", 3, 1).unwrap().texts, ["-1.50", "2", "-3"], "the digits stay");
+    }
+
+    #[test]
     fn matrices_in_one_field() {
         for text in [
             "[[1, 2], [3, 4]]",
@@ -345,14 +368,49 @@ mod tests {
         ] {
             assert_eq!(read(text, 2, 2), (vec![1.0, 2.0, 3.0, 4.0], String::new()), "{text}");
         }
+        for text in [
+            "[1 3; 2 4]^T",
+            "[1 3; 2 4]'",
+            "np.array([[1, 3], [2, 4]]).T",
+            "[[1, 3], [2, 4]].transpose()",
+            "[1 3; 2 4]ᵀ",
+            "([1 2; 3 4]^T)^T",
+            "-[-1 -3; -2 -4]^T",
+            "0.5*[2 4; 6 8]",
+        ] {
+            assert_eq!(read(text, 2, 2), (vec![1.0, 2.0, 3.0, 4.0], String::new()), "{text}");
+        }
+        assert_eq!(read("[1 2; 3 4; 5 6]^T m", 2, 3), (vec![1.0, 3.0, 5.0, 2.0, 4.0, 6.0], "m".to_owned()));
     }
 
     #[test]
     fn what_has_another_size_is_refused() {
-        for text in ["1, 2", "(1, 2, 3, 4)", "1 2 x", "", "i + 1", "i*j", "hello"] {
+        for text in [
+            "1, 2",
+            "(1, 2, 3, 4)",
+            "1 2 x",
+            "",
+            "i + 1",
+            "i*j",
+            "hello",
+            "(1, 2, 3)^2",
+            "(1, 2, 3) + (1, 2, 3)",
+            "(1, 2, 3) 4",
+            "m (1, 2, 3)",
+            "x = 1, x = 2, z = 3",
+            "()",
+        ] {
             assert_eq!(cells(text, 3, 1), None, "{text}");
         }
-        assert_eq!(cells("1 2 3; 4", 2, 2), None);
+        for text in ["1 2 3; 4", "[1, 2; 3, 4]^-1", "1 2 3 4^T", "[1 2 3; 4 5 6]^T"] {
+            assert_eq!(cells(text, 2, 2), None, "{text}");
+        }
         assert_eq!(cells(&"1 ".repeat(100_000), 3, 1), None);
+        let deep = format!("{}1, 2, 3{}", "-(".repeat(1_300), ")".repeat(1_300));
+        assert_eq!(cells(&deep, 3, 1), None);
+        assert_eq!(
+            cells(&format!("(1, 2, 3){}", "'".repeat(3_900)), 3, 1).map(|cells| cells.texts.len()),
+            Some(3)
+        );
     }
 }

@@ -109,7 +109,9 @@ fn one(text: &str) -> Result<(ParsedNumber, String), NumberError> {
             (ParsedNumber { value, half_ulp_decimal: 0.0 }, rest.to_owned())
         }
         Some(Err(Comma)) => return Err(NumberError::AmbiguousComma { text: shorten(text) }),
-        Some(Ok((number, rest))) if ends_value(&rest) => (number, rest),
+        Some(Ok((number, rest))) if ends_value(without_uncertainty(&number, &rest)) => {
+            (number, without_uncertainty(&number, &rest).to_owned())
+        }
         found => match (leading_value(answer), found) {
             (Some((value, rest)), _) if ends_value(&rest) => {
                 (ParsedNumber { value, half_ulp_decimal: 0.0 }, rest)
@@ -121,6 +123,16 @@ fn one(text: &str) -> Result<(ParsedNumber, String), NumberError> {
         return Err(NumberError::NotFinite { text: shorten(text) });
     }
     Ok((number, rest.trim().trim_start_matches('*').trim().to_owned()))
+}
+
+/// Without the uncertainty of the last digits, as in `200.0(5) mm`, which stands close behind decimals.
+fn without_uncertainty<'a>(number: &ParsedNumber, rest: &'a str) -> &'a str {
+    let decimals = (0.0..0.5).contains(&number.half_ulp_decimal) && number.value != 0.0;
+    let uncertain = rest.strip_prefix('(').filter(|_| decimals).and_then(|inner| inner.split_once(')'));
+    match uncertain {
+        Some((digits, behind)) if !digits.is_empty() && digits.bytes().all(|c| c.is_ascii_digit()) => behind,
+        _ => rest,
+    }
 }
 
 /// Whether a power of ten has lost its `^`, as in `2.4 x 10-3` copied from a page: it could be read as 21.
@@ -331,6 +343,11 @@ mod tests {
             ("3,5*2", 7.0),
             ("none", 0.0),
             ("29.4 ± 0.1", 29.4),
+            ("2.36 +- 0.01", 2.36),
+            ("200.0(5) mm", 200.0),
+            ("2(3)", 6.0),
+            ("=> 4", 4.0),
+            ("-> 4", 4.0),
             ("4,429e0", 4.429),
             ("2.9 E1", 29.0),
             ("2π√4", 4.0 * std::f64::consts::PI),

@@ -72,6 +72,8 @@ pub enum TableError {
 pub(crate) struct Cells {
     /// The names in the first line, without units in brackets, in small letters.
     pub names: Vec<String>,
+    /// What stands in these brackets.
+    pub brackets: Vec<String>,
     /// Number of the line in the file, from 1, and its cells.
     pub lines: Vec<(usize, Vec<String>)>,
 }
@@ -105,7 +107,12 @@ pub(crate) fn cells(text: &str) -> Result<Cells, TableError> {
         }
     };
     let bare = |name: &String| name.split(['[', '(']).next().unwrap_or_default().trim().to_lowercase();
+    let bracket = |name: &String| {
+        let (_, unit) = name.split_once(['[', '('])?;
+        unit.trim_end().strip_suffix([']', ')']).map(|unit| unit.trim().to_owned())
+    };
     let names: Vec<String> = cut(head).iter().map(bare).collect();
+    let brackets = cut(head).iter().map(|name| bracket(name).unwrap_or_default()).collect();
     if names.len() > MAX_COLUMNS {
         return Err(TableError::TooManyColumns { count: names.len() });
     }
@@ -123,7 +130,7 @@ pub(crate) fn cells(text: &str) -> Result<Cells, TableError> {
         }
         found.push((number, cells));
     }
-    Ok(Cells { names, lines: found })
+    Ok(Cells { names, brackets, lines: found })
 }
 
 /// A number in a cell.
@@ -148,18 +155,34 @@ fn are_units(cells: &[String]) -> bool {
     cells.iter().all(is_unit) && cells.iter().any(|cell| cell != "1")
 }
 
-/// Reads a table of numbers. A row of units below the names, as `triad run` writes it, is passed over.
+/// How many of the unit that the table is read in one of a column's is: of lengths, times, angles and their rates. One letter may be a
+/// name as well, as in `x(t)`, and changes nothing.
+fn factor(unit: &str) -> f64 {
+    let read = Unit::parse(unit).ok().filter(|_| unit.chars().count() > 1 || unit == "°");
+    // Not of `x (in m)`, which is no inch metre.
+    let [length, time, mass_and_others] = read.as_ref().map_or([0; 3], |unit| {
+        let [length, mass, time, rest @ ..] = unit.dimension.0;
+        [length, time, mass.abs() + rest.iter().map(|of| of.abs()).sum::<i32>()]
+    });
+    let moves = mass_and_others == 0 && matches!((length, time), (0..=1, -2..=0) | (0, 1));
+    read.filter(|_| moves).map_or(1.0, |unit| unit.factor)
+}
+
+/// Reads a table of numbers, in SI units where columns say theirs: in brackets behind their names, or in a row of units below them, as
+/// `triad run` writes it.
 pub(crate) fn read(text: &str) -> Result<Table, TableError> {
-    let Cells { names, mut lines } = cells(text)?;
+    let Cells { names, brackets: mut units, mut lines } = cells(text)?;
     if lines.first().is_some_and(|(_, cells)| are_units(cells)) {
-        lines.remove(0);
+        units = lines.remove(0).1;
     }
+    let factors: Vec<f64> = units.iter().map(|unit| factor(unit)).collect();
     if lines.len() > MAX_ROWS {
         return Err(TableError::TooManyRows { rows: lines.len() });
     }
     let mut rows = Vec::with_capacity(lines.len());
     for (line, cells) in lines {
-        let row = cells.iter().zip(&names).map(|(cell, name)| number(cell, line, name));
+        let row = cells.iter().zip(&names).zip(&factors);
+        let row = row.map(|((cell, name), factor)| Ok(number(cell, line, name)? * factor));
         rows.push(row.collect::<Result<Vec<f64>, TableError>>()?);
     }
     Ok(Table { names, rows })
@@ -186,6 +209,23 @@ mod tests {
                 (vec!["t".into(), "x".into()], vec![vec![0.0, 1.5], vec![1.0, 2.0]])
             );
         }
+    }
+
+    #[test]
+    fn columns_that_say_their_units_are_read_in_those() {
+        for text in [
+            "t [s],x [mm]\n0,1500\n1,2000",
+            "t,x\ns,mm\n0,1500\n1,2000",
+            "t (ms);x (cm)\n0;150\n1000;200",
+            "t [s],x [m]\n0,1.5\n1,2",
+            "t,x(t)\n0,1.5\n1,2",
+            "t (in s),x (in m)\n0,1.5\n1,2",
+            "t,x (of the bob)\n0,1.5\n1,2",
+        ] {
+            assert_eq!(read(text).unwrap().rows, [[0.0, 1.5], [1.0, 2.0]], "{text}");
+        }
+        let turned = read("t,phi [deg]\n0,90").unwrap().rows[0][1];
+        assert!((turned - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
     }
 
     #[test]

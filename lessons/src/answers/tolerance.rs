@@ -28,7 +28,10 @@ pub enum ValueShape {
 
 /// Root of the sum of squares.
 pub fn norm(components: &[f64]) -> f64 {
-    components.iter().map(|c| c * c).sum::<f64>().sqrt()
+    let largest = components.iter().fold(0.0f64, |largest, c| largest.max(c.abs()));
+    // Squares that can be held.
+    let scale = if (1e-140..1e140).contains(&largest) || largest == 0.0 { 1.0 } else { largest };
+    scale * components.iter().map(|c| (c / scale) * (c / scale)).sum::<f64>().sqrt()
 }
 
 /// Norm of the difference.

@@ -74,6 +74,18 @@ fn findings(task: &Diagram, arrows: &[Arrow]) -> Vec<DiagramFinding> {
     let known = |given: &Arrow| task.reference.iter().any(|right| same_line(given, right));
     let strange = arrows.iter().filter(|given| !known(given) && !task.allows(given));
     findings.extend(strange.cloned().map(DiagramFinding::TooMuch));
+    // What is cut at a joint acts on the two bodies in opposite directions, also where nothing has to act.
+    let same_way = |(k, given): &(usize, &Arrow)| {
+        task.allows(given)
+            && !known(given)
+            && arrows[..*k].iter().any(|other| {
+                (other.kind, &other.at, other.along) == (given.kind, &given.at, given.along)
+                    && other.on != given.on
+            })
+    };
+    findings.extend(
+        arrows.iter().enumerate().filter(same_way).map(|(_, arrow)| DiagramFinding::TooMuch(arrow.clone())),
+    );
     findings
 }
 

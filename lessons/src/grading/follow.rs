@@ -9,8 +9,12 @@ use crate::lesson::Lesson;
 use crate::verdict::Mark;
 use crate::verdict::feedback::{Feedback, Judgement};
 
+/// Factor from which on an earlier answer is no number to calculate with, but one that makes what follows simple: more than units are
+/// mistaken by.
+const FARTHEST: f64 = 1e4;
+
 /// Judges a wrong answer again with the student's own earlier values; `None` if these were right, do not lead to it, or lead
-/// to it without a step: nothing follows from zero, and what a misconception of this question leads to has words of its own.
+/// to it without a step: nothing follows from zero and the like, and what a misconception of this question leads to has words of its own.
 pub(super) fn judge(
     lesson: &Lesson,
     question: &QuantityQuestion,
@@ -34,7 +38,9 @@ pub(super) fn judge(
             Mark::Right => own.reference.clone(),
             Mark::Blank | Mark::Invalid | Mark::Waiting | Mark::Kept => return None,
         };
-        if norm(&values) == 0.0 {
+        let (size, right) = (norm(&values), norm(&own.reference));
+        let far = right > 0.0 && (size > FARTHEST * right || FARTHEST * size < right);
+        if size == 0.0 || far {
             return None;
         }
         parameters.add(symbol, *values.get(component.unwrap_or(0))?);

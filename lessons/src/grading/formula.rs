@@ -10,10 +10,10 @@ use triad_engine::scene::expression::Expression;
 
 /// Points at which formulas are compared.
 const POINTS: usize = 24;
-/// Relative difference below which two values agree.
+/// Difference below which two values agree, as a part of their sum.
 const AGREEMENT: f64 = 1e-9;
-/// The same where a number with decimals is part of the answer: 9.87 may stand for π².
-const ROUNDED_AGREEMENT: f64 = 1e-4;
+/// The same where a number with decimals is part of the answer, rounded to four digits at least: 1.155 may stand for 2/√3.
+const ROUNDED_AGREEMENT: f64 = 2.5e-4;
 
 /// Judges a formula; `seed` makes the points of each question its own.
 pub(crate) fn judge(
@@ -62,8 +62,7 @@ pub(crate) fn same(a: &Expression, b: &Expression, ranges: &[[f64; 2]], seed: &s
             continue;
         }
         defined += 1;
-        // `!(<=)` also refuses an `x` that is not a number.
-        let agrees = (x - y).abs() <= agreement * (x.abs() + y.abs()) + 1e-300;
+        let agrees = x.is_finite() && (x - y).abs() <= agreement * x.abs() + agreement * y.abs() + 1e-300;
         if !agrees {
             return false;
         }

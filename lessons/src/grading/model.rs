@@ -66,12 +66,14 @@ fn accepted(task: &ModelTask, text: &str) -> Result<(Scene, CheckReport), Invali
         return Err(InvalidModel::Connections { connections });
     }
     let end = task.watches().iter().flat_map(|w| &w.times).fold(0.01, |a: f64, t| a.max(*t));
+    // How it is run, and where it would be stopped, is no part of the mechanism.
+    scene.events.clear();
     scene.simulation = Settings {
         duration: end,
         integrator: IntegratorKind::Auto,
         tolerance: TOLERANCE,
         constraint_method: ConstraintMethod::Projection,
-        ..scene.simulation
+        ..Settings::default()
     };
     let report = check(&scene).map_err(Box::new)?;
     Ok((scene, report))

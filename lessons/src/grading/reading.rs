@@ -63,8 +63,12 @@ pub(super) fn read(question: &QuantityQuestion, answer: &Answer) -> Result<Readi
             1.0
         }
     };
+    let values: Vec<f64> = entries.iter().map(|e| e.number.value * factor(e)).collect();
+    if values.iter().any(|value| !value.is_finite()) {
+        return Err(InvalidQuantity::NotFinite);
+    }
     Ok(Reading {
-        values: entries.iter().map(|e| e.number.value * factor(e)).collect(),
+        values,
         rounding: entries.iter().map(|e| e.number.half_ulp_decimal * factor(e)).collect(),
         mismatch: entries
             .iter()
@@ -121,7 +125,7 @@ fn entries(question: &QuantityQuestion, value: &TypedValue) -> Result<Entries, I
             }
             let cells = match question.shape {
                 ValueShape::Matrix => of_rows(list, rows, columns)?,
-                _ if list.len() == rows => list.iter().map(alone).collect(),
+                _ if list.len() == rows => in_order(list.iter().map(alone).collect())?,
                 _ => return Err(InvalidQuantity::Components { rows }),
             };
             let read = cells.iter().enumerate().map(|(k, cell)| entry(k, cell));
@@ -138,6 +142,15 @@ fn alone(cell: &TypedValue) -> TypedValue {
         TypedValue::List(list) if list.len() == 1 => list[0].clone(),
         other => other.clone(),
     }
+}
+
+/// Cells in the order of their labels, if they are texts that have such.
+fn in_order(cells: Vec<TypedValue>) -> Result<Vec<TypedValue>, InvalidQuantity> {
+    let texts =
+        cells.iter().map(|cell| if let TypedValue::Text(text) = cell { Some(text.clone()) } else { None });
+    let Some(texts) = texts.collect::<Option<Vec<_>>>() else { return Ok(cells) };
+    let order = array::order(&texts).ok_or(InvalidQuantity::Components { rows: cells.len() })?;
+    Ok(order.into_iter().map(|k| cells[k].clone()).collect())
 }
 
 /// The cells of rows, each a list or a text.
@@ -194,7 +207,9 @@ fn unit(question: &QuantityQuestion, text: &str) -> Result<Unit, InvalidQuantity
     }
     let unit = match Unit::parse_as(text, wanted.dimension) {
         // `11 rows`
-        Err(UnitError::Unknown { .. }) if is_count => return Ok(wanted.clone()),
+        Err(UnitError::Unknown { .. }) if is_count && names_what_is_counted(text) => {
+            return Ok(wanted.clone());
+        }
         read => read?,
     };
     if is_count && (unit.dimension != wanted.dimension || unit.factor != 1.0) {
@@ -212,6 +227,19 @@ fn unit(question: &QuantityQuestion, text: &str) -> Result<Unit, InvalidQuantity
         return Err(InvalidQuantity::OtherUnit { given: shorten(text), wanted });
     }
     Ok(unit)
+}
+
+/// Whether the words behind a count say what is counted, and nothing of how many.
+fn names_what_is_counted(text: &str) -> bool {
+    const OF_NUMBERS: [&str; 14] = [
+        "or", "to", "through", "plus", "minus", "times", "over", "hundred", "thousand", "million", "dozen",
+        "half", "i", "e",
+    ];
+    let plain = text.chars().all(|c| c.is_alphabetic() || " -'.,()".contains(c));
+    let mut words = text.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
+    plain
+        && words
+            .all(|word| !OF_NUMBERS.contains(&word.to_lowercase().as_str()) && number::read(word).is_err())
 }
 
 /// How an answer is understood, in words for its author: `29.4 N`, `(1, 2, 3) kg m/s`, `m·g·cos(alpha)`. `None` for a kind of

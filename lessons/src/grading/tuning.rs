@@ -6,11 +6,13 @@ use triad_engine::scene::{ConstraintMethod, IntegratorKind, Scene};
 
 use super::known::{Known, Made, Run};
 use super::picture::{Picture, Point};
+use crate::answers::number::{self, NumberError};
 use crate::answers::tolerance::distance;
-use crate::answers::{Answer, RunSettings, TypedValue, number};
+use crate::answers::{Answer, RunSettings, TypedValue};
 use crate::exercise::Tuning;
 use crate::files::MeasuredFile;
 use crate::scenario::measure::{MeasureError, measure, tight};
+use crate::text::shorten;
 use crate::verdict::feedback::{Feedback, Judgement, TuningFeedback};
 use crate::verdict::invalid::InvalidSettings;
 
@@ -20,6 +22,8 @@ const BUDGETS: u64 = 4;
 const NEARLY: u64 = 2;
 /// Steps between two checks of the budget.
 const STEPS_PER_CHECK: u64 = 16;
+/// Units that alpha and beta may be given in.
+const PER_SECOND: [&str; 4] = ["1/s", "s^-1", "s^(-1)", "rad/s"];
 /// Tolerances of the curves in the picture.
 const CURVE: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
 
@@ -57,6 +61,7 @@ pub(super) fn judge(
         error: cost.error,
         allowed: task.error,
         violation: task.violation.map(|allowed| [cost.violation, allowed]),
+        stabilized: settings.baumgarte.is_some(),
         note: String::new(),
     };
     let (precise, cheap) = (feedback.is_precise(), feedback.is_cheap() && cost.error.is_some());
@@ -83,7 +88,7 @@ fn chosen(task: &Tuning, settings: &RunSettings) -> Result<Scene, InvalidSetting
         let known = task.integrators.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
         return Err(InvalidSettings::Integrator { integrator: settings.integrator.to_string(), known });
     }
-    let tolerance = positive(&settings.tolerance, "The tolerance")?;
+    let tolerance = positive(&settings.tolerance, "The tolerance", &[])?;
     if !(1e-13..=1e-1).contains(&tolerance) {
         return Err(InvalidSettings::ToleranceRange);
     }
@@ -91,7 +96,8 @@ fn chosen(task: &Tuning, settings: &RunSettings) -> Result<Scene, InvalidSetting
         None => ConstraintMethod::Projection,
         Some(_) if !task.baumgarte => return Err(InvalidSettings::NoBaumgarte),
         Some([alpha, beta]) => {
-            let (alpha, beta) = (positive(alpha, "Alpha")?, positive(beta, "Beta")?);
+            let (alpha, beta) =
+                (positive(alpha, "Alpha", &PER_SECOND)?, positive(beta, "Beta", &PER_SECOND)?);
             if alpha > 1e4 || beta > 1e4 {
                 return Err(InvalidSettings::BaumgarteRange);
             }
@@ -108,11 +114,17 @@ fn chosen(task: &Tuning, settings: &RunSettings) -> Result<Scene, InvalidSetting
     Ok(scene)
 }
 
-fn positive(entry: &TypedValue, what: &'static str) -> Result<f64, InvalidSettings> {
+/// A number that is not negative, without a unit or with one that says nothing new.
+fn positive(entry: &TypedValue, what: &'static str, units: &[&str]) -> Result<f64, InvalidSettings> {
     let value = match entry {
         TypedValue::Number(x) => *x,
         TypedValue::Text(text) => {
-            number::read(text).map_err(|error| InvalidSettings::Number { what, error })?.0.value
+            let refused = |error| InvalidSettings::Number { what, error };
+            let (number, unit) = number::read(text).map_err(refused)?;
+            if !unit.is_empty() && !units.contains(&unit.as_str()) {
+                return Err(refused(NumberError::NotANumber { text: shorten(text) }));
+            }
+            number.value
         }
         TypedValue::List(_) => return Err(InvalidSettings::List { what }),
     };

@@ -11,12 +11,17 @@ use triad_engine::scene::expression::{Expression, Node};
 const POINTS: usize = 6;
 /// Relative difference below which two values agree; numbers that people type may be rounded.
 const AGREEMENT: f64 = 1e-4;
+/// Times that difference from which on a number counts as added.
+const NOTICED: f64 = 10.0;
 /// Powers that a symbol may have too many or too few.
 const EXPONENTS: [f64; 8] = [1.0, -1.0, 2.0, -2.0, 0.5, -0.5, 4.0, -4.0];
 
 /// Whether two values are the same, or neither is defined.
 fn agree(a: f64, b: f64) -> bool {
-    (!a.is_finite() && !b.is_finite()) || (a - b).abs() <= AGREEMENT * a.abs().max(b.abs())
+    match (a.is_finite(), b.is_finite()) {
+        (true, true) => (a - b).abs() <= AGREEMENT * a.abs().max(b.abs()),
+        (one, other) => one == other,
+    }
 }
 
 /// The usual mistake that leads to this formula, if there is one.
@@ -84,8 +89,9 @@ fn ratio(points: &[Vec<f64>], typed: &[f64], right: &[f64]) -> Option<&'static M
     }
     let added: Vec<f64> = typed.iter().zip(right).map(|(x, r)| x - r).collect();
     let size = right.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+    // What is nearly nothing is nearly the same everywhere, and is not added.
     if added.windows(2).all(|w| (w[0] - w[1]).abs() <= AGREEMENT * size)
-        && added.iter().all(|x| x.is_finite())
+        && added.iter().all(|x| x.is_finite() && x.abs() > NOTICED * AGREEMENT * size)
     {
         return Some(mistakes::CONSTANT_TERM);
     }

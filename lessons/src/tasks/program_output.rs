@@ -1,6 +1,6 @@
 //! What a student's program sends: JSON or CSV, read with clear errors.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
 use thiserror::Error;
@@ -101,6 +101,20 @@ pub enum OutputError {
         cell: String,
         /// Largest value.
         most: usize,
+    },
+    /// An entry that stands there twice.
+    #[error("Line {line} gives an entry again: state {state}, {part}, row {row}, column {column}.")]
+    Twice {
+        /// Line in the file, from 1.
+        line: usize,
+        /// The state, from 1.
+        state: usize,
+        /// The part.
+        part: &'static str,
+        /// Its row, from 1.
+        row: usize,
+        /// Its column, from 1.
+        column: usize,
     },
     /// Entries of a vector that are left out.
     #[error("There are {found} lines of {part}; {rows} for each of {states} states are asked for.")]
@@ -218,6 +232,7 @@ fn from_csv(text: &str, size: &OutputSize) -> Result<ProgramOutput, OutputError>
     }
     let mut output = ProgramOutput::new();
     let mut filled: BTreeMap<EquationPart, usize> = BTreeMap::new();
+    let mut known = BTreeSet::new();
     for (line, cells) in &table.lines {
         let cell = places.map(|place| cells[place].as_str());
         let part = part_of(cell[1], *line, size)?;
@@ -225,6 +240,10 @@ fn from_csv(text: &str, size: &OutputSize) -> Result<ProgramOutput, OutputError>
         let count = |k: usize, most: usize| count(cell[k], most, *line, CSV_COLUMNS[k]);
         let (state, row, column) = (count(0, size.states)?, count(2, rows)?, count(3, columns)?);
         let value = table::number(cell[4], *line, "value")?;
+        if !known.insert((part, state, row, column)) {
+            let [state, row, column] = [state, row, column].map(|counted| counted + 1);
+            return Err(OutputError::Twice { line: *line, state, part: part.key(), row, column });
+        }
         let grids =
             output.entry(part).or_insert_with(|| vec![Grid::make(rows, columns, |_, _| 0.0); size.states]);
         grids[state].values[row * columns + column] = value;

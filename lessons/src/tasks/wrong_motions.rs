@@ -100,10 +100,11 @@ pub(crate) fn shape(
     }
     let moved: Vec<Vec<f64>> =
         table.columns.iter().zip(&right.columns).map(|(own, right)| offset(own, right)).collect();
-    if table.apart(&moved) <= SAME {
+    let limit = SAME.min(MUCH_NEARER * table.apart(&right.columns));
+    if table.apart(&moved) <= limit {
         return Some(mistakes::OTHER_ORIGIN);
     }
-    if table.apart(&stretched(table, &right)) <= SAME {
+    if table.apart(&stretched(table, &right)) <= limit {
         return Some(mistakes::TABLE_SCALE);
     }
     let signals = |table: &Table| [table.columns.clone(), angles(table)].concat();

@@ -169,7 +169,12 @@ fn a_formula_is_judged_by_what_it_means() {
     for same in ["m*v^2/2", "0.5 m v^2", "v*m*v/2", "(m v)^2/(2 m)"] {
         assert_eq!(judged("energy", text(same), None).verdict, Mark::Right, "{same}");
     }
+    // Rounded to four digits, but not to three.
+    assert_eq!(judged("energy", text("0.5004 m v^2"), None).verdict, Mark::Wrong);
+    assert_eq!(judged("energy", text("0.5002 m v^2"), None).verdict, Mark::Right);
     let misconception = |formula: &str| judged("energy", text(formula), None).misconception;
+    assert_eq!(misconception("m v^2/2 + 0.1").as_deref(), Some("constant-term"));
+    assert_ne!(misconception("m v^2.002/2").as_deref(), Some("constant-term"));
     assert_eq!(misconception("v^2 m").as_deref(), Some("no-half"));
     assert_eq!(misconception("-m v^2/2").as_deref(), Some("opposite-sign"));
     assert!(judged("energy", text("v^2/2"), None).message_html.contains("depends on m"));

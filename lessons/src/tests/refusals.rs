@@ -117,7 +117,7 @@ fn measure_errors() -> Refusals<MeasureError> {
 #[test]
 fn programs_and_figures_that_cannot_be_read() {
     let mut outputs = Refusals::new(variants!(
-        OutputError: Json, NoStates, StateCount, Missing, Form, Table, MissingColumn, UnknownPart, OutOfRange, LineCount,
+        OutputError: Json, NoStates, StateCount, Missing, Form, Table, MissingColumn, UnknownPart, OutOfRange, Twice, LineCount,
         NoValue
     ));
     let size =
@@ -133,6 +133,7 @@ fn programs_and_figures_that_cannot_be_read() {
         "state,row,column,value\n1,1,1,0".to_owned(),
         csv("1,psi,1,1,0"),
         csv("7,phi,1,1,0"),
+        csv("1,phi,1,1,0\n1,phi,1,1,2"),
         csv("1,phi,1,1,0"),
         csv(""),
     ] {

@@ -337,6 +337,8 @@ pub(crate) struct TuningFeedback {
     pub allowed: f64,
     /// How far the constraints are violated at the end, and how far they may be, where that is asked.
     pub violation: Option<[f64; 2]>,
+    /// Whether Baumgarte's stabilization was chosen.
+    pub stabilized: bool,
     /// Why it is right.
     pub note: String,
 }

@@ -294,6 +294,12 @@ fn tuning(run: &TuningFeedback) -> String {
         (true, true) => return format!("<p>Right.</p><p>{result}</p>{}", render_short(&run.note)),
         (true, false) => "You bought more digits than were asked for, or bought them at the wrong place.",
         (false, true) => "There is money left: a tighter tolerance costs little for a method of high order.",
+        (false, false) if run.error.is_none() && run.stabilized => {
+            "Look at alpha and beta too: the larger they are, the shorter the steps that they ask for."
+        }
+        (false, false) if run.error.is_none() => {
+            "How precise it would have been is not known: with this method every further digit is too dear. Try another one."
+        }
         (false, false) => {
             "Both are missed: with this method every further digit is too dear. Try another one."
         }

@@ -40,7 +40,8 @@ pub fn undecorated(plain: &str) -> &str {
     loop {
         let before = text;
         text = without_brackets(without_label(without_lead(text)));
-        if let Some((value, _)) = text.split_once('\u{b1}').or_else(|| text.split_once("+/-"))
+        let uncertain = ["\u{b1}", "+/-", " +- "].iter().find_map(|sign| text.split_once(sign));
+        if let Some((value, _)) = uncertain
             && !value.trim().is_empty()
         {
             text = value.trim();
@@ -53,7 +54,10 @@ pub fn undecorated(plain: &str) -> &str {
 
 /// Without signs and words that say "about" or "is".
 fn without_lead(text: &str) -> &str {
-    let mut text = text.trim_start_matches(['=', '~', '\u{2248}', '\u{2243}', '\u{2245}', ':', '>']).trim();
+    // Not the sign of something greater.
+    let arrow = ["=>", "->", ">>>", "\u{21d2}", "\u{2192}"].iter().find_map(|arrow| text.strip_prefix(arrow));
+    let text = arrow.unwrap_or(text).trim_start();
+    let mut text = text.trim_start_matches(['=', '~', '\u{2248}', '\u{2243}', '\u{2245}', ':']).trim();
     for word in ["approximately", "approx.", "approx", "roughly", "about", "circa", "ca.", "ca"] {
         if let (Some(start), Some(rest)) = (text.get(..word.len()), text.get(word.len()..))
             && start.eq_ignore_ascii_case(word)
@@ -69,6 +73,10 @@ fn without_lead(text: &str) -> &str {
 fn without_label(text: &str) -> &str {
     let equals = ['=', '\u{2248}', '\u{2243}', '\u{2245}'];
     if let Some(at) = text.rfind(equals) {
+        // `<= 4` bounds an answer, and is none.
+        if text[..at].ends_with(['<', '>', '!']) {
+            return text;
+        }
         let behind = text[at..].trim_start_matches(equals).trim();
         // `29.4 N = F`: a name alone is no answer.
         if behind.contains(|c: char| c.is_ascii_digit()) || behind.contains("pi") {

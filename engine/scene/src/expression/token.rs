@@ -65,7 +65,14 @@ fn number(cursor: &mut Cursor, separates: bool) -> Result<(f64, bool), Expressio
     let comma = cursor.peek() == Some(',') && cursor.peek_at(1).is_some_and(|c| c.is_ascii_digit());
     if comma && !separates && !text.contains('.') {
         cursor.take_next();
-        text = format!("{text}.{}", cursor.take_number());
+        let decimals = cursor.take_number();
+        if decimals.len() == 3 && (1..=3).contains(&text.len()) && !text.starts_with('0') {
+            let problem = format!(
+                "the comma in \u{201c}{text},{decimals}\u{201d} can be read in two ways; write the decimal sign as a point"
+            );
+            return Err(ExpressionError::Syntax { position, problem });
+        }
+        text = format!("{text}.{decimals}");
     }
     let value = text.parse().map_err(|_| ExpressionError::Syntax {
         position,
