@@ -3,7 +3,7 @@
 
 use triad_engine::scene::expression::{Expression, begins_factor, notation};
 
-use super::enclosed::{enclosed, transposition};
+use super::enclosed::enclosed;
 use super::number;
 use super::units::Unit;
 
@@ -53,7 +53,7 @@ pub(crate) fn cells(text: &str, rows: usize, columns: usize) -> Option<Cells> {
     // Lines are rows; the plain notation would take them for spaces.
     let lines: Vec<String> =
         text.trim().lines().map(notation::plain).filter(|line| !line.is_empty()).collect();
-    let (plain, transposed) = unnamed(&lines.join("\n"));
+    let plain = unnamed(&lines.join("\n"));
     let wanted = rows * columns;
     if wanted == 3
         && columns == 1
@@ -65,7 +65,7 @@ pub(crate) fn cells(text: &str, rows: usize, columns: usize) -> Option<Cells> {
     let array = enclosed(&plain)?;
     let texts = if columns == 1 {
         vector(array.inner, wanted)
-    } else if transposed != array.transposed {
+    } else if array.transposed {
         matrix(array.inner, columns, rows).map(|texts| transpose(&texts, rows))
     } else {
         matrix(array.inner, rows, columns).or_else(|| vector(array.inner, wanted))
@@ -115,8 +115,8 @@ fn transpose(texts: &[String], rows: usize) -> Vec<String> {
     (0..rows).flat_map(|row| texts.iter().skip(row).step_by(rows).cloned()).collect()
 }
 
-/// Without the name of an array, `dtype=…`, a label and a sign of transposition; whether there was such a sign.
-fn unnamed(plain: &str) -> (String, bool) {
+/// Without the name of an array, `dtype=…` and a label.
+fn unnamed(plain: &str) -> String {
     let mut text = plain;
     if let Some(at) = text.find('=').filter(|at| text[..*at].find(['[', '(', ',']).is_none()) {
         // `F = (1, 2, 3)`, but not `x = 1, y = 2, z = 3`.
@@ -125,13 +125,6 @@ fn unnamed(plain: &str) -> (String, bool) {
         }
     }
     let mut text = text.trim_end_matches(['.', ';']);
-    let end = text.rfind([']', ')', '>']).map_or(0, |at| at + 1);
-    // `.transpose()` ends with a bracket of its own.
-    let end = text.find(".transpose()").unwrap_or(end);
-    let (rest, transposed) = transposition(text[end..].trim());
-    if rest.is_empty() {
-        text = &text[..end];
-    }
     for name in NAMES {
         if let Some(rest) =
             text.strip_prefix(name).filter(|rest| rest.trim_start().starts_with(['(', '[', '{']))
@@ -139,11 +132,9 @@ fn unnamed(plain: &str) -> (String, bool) {
             text = rest.trim();
         }
     }
-    let array = match text.find("dtype") {
-        Some(at) => text[..at].trim_end().trim_end_matches(',').to_owned() + ")",
-        None => text.to_owned(),
-    };
-    (array, transposed && rest.is_empty())
+    let Some(at) = text.find("dtype") else { return text.to_owned() };
+    let behind = text[at..].split_once(')').map_or("", |(_, behind)| behind);
+    text[..at].trim_end().trim_end_matches(',').to_owned() + ")" + behind
 }
 
 /// The bars beside the rows of a matrix, `| 1 0 |`.

@@ -117,7 +117,7 @@ fn array(plain: &str) -> Option<[usize; 2]> {
 }
 
 /// Without signs of transposition; whether there was an odd number of them.
-pub(super) fn transposition(behind: &str) -> (&str, bool) {
+fn transposition(behind: &str) -> (&str, bool) {
     let (mut rest, mut transposed) = (behind, false);
     while let Some(more) = TRANSPOSED.iter().find_map(|mark| rest.strip_prefix(mark)) {
         (rest, transposed) = (more.trim(), !transposed);

@@ -59,6 +59,11 @@ fn same_line(a: &Arrow, b: &Arrow) -> bool {
     (a.kind, &a.at, &a.on, a.along.axis()) == (b.kind, &b.at, &b.on, b.along.axis())
 }
 
+/// Whether two arrows are drawn alike on two bodies.
+fn same_way(a: &Arrow, b: &Arrow) -> bool {
+    (a.kind, &a.at, a.along) == (b.kind, &b.at, b.along) && a.on != b.on
+}
+
 /// What is missing, points the wrong way, or is too much.
 fn findings(task: &Diagram, arrows: &[Arrow]) -> Vec<DiagramFinding> {
     let mut findings = Vec::new();
@@ -75,16 +80,11 @@ fn findings(task: &Diagram, arrows: &[Arrow]) -> Vec<DiagramFinding> {
     let strange = arrows.iter().filter(|given| !known(given) && !task.allows(given));
     findings.extend(strange.cloned().map(DiagramFinding::TooMuch));
     // What is cut at a joint acts on the two bodies in opposite directions, also where nothing has to act.
-    let same_way = |(k, given): &(usize, &Arrow)| {
-        task.allows(given)
-            && !known(given)
-            && arrows[..*k].iter().any(|other| {
-                (other.kind, &other.at, other.along) == (given.kind, &given.at, given.along)
-                    && other.on != given.on
-            })
+    let again = |(k, given): &(usize, &Arrow)| {
+        task.allows(given) && !known(given) && arrows[..*k].iter().any(|other| same_way(other, given))
     };
     findings.extend(
-        arrows.iter().enumerate().filter(same_way).map(|(_, arrow)| DiagramFinding::TooMuch(arrow.clone())),
+        arrows.iter().enumerate().filter(again).map(|(_, arrow)| DiagramFinding::TooMuch(arrow.clone())),
     );
     findings
 }
@@ -92,10 +92,8 @@ fn findings(task: &Diagram, arrows: &[Arrow]) -> Vec<DiagramFinding> {
 /// The mistake behind the findings.
 fn slip(task: &Diagram, arrows: &[Arrow], findings: &[DiagramFinding]) -> DiagramSlip {
     let at_joint = |arrow: &Arrow| arrow.at != CENTRE;
-    let same_way = arrows
-        .iter()
-        .filter(|a| at_joint(a))
-        .any(|a| arrows.iter().any(|b| (a.kind, &a.at, a.along) == (b.kind, &b.at, b.along) && a.on != b.on));
+    let pushed_together =
+        arrows.iter().filter(|a| at_joint(a)).any(|a| arrows.iter().any(|b| same_way(a, b)));
     let joints = task.reference.iter().filter(|arrow| at_joint(arrow)).count();
     let turned = |f: &DiagramFinding| matches!(f, DiagramFinding::Opposite(arrow) if at_joint(arrow));
     let missing_weight = |f: &DiagramFinding| matches!(f, DiagramFinding::Missing(arrow) if !at_joint(arrow));
@@ -110,7 +108,7 @@ fn slip(task: &Diagram, arrows: &[Arrow], findings: &[DiagramFinding]) -> Diagra
         }),
         _ => false,
     });
-    if same_way {
+    if pushed_together {
         DiagramSlip::ActionReaction
     } else if joints > 0 && findings.len() == joints && findings.iter().all(turned) {
         DiagramSlip::OtherSide
