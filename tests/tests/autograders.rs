@@ -41,10 +41,11 @@ fn find_grader() -> Option<PathBuf> {
     }
     let target = triad().ancestors().nth(2).unwrap();
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["build", "--release", "--target", TARGET, "-p", "triad-grade", "--target-dir"]).arg(target);
+    cargo.args(["build", "--profile", "tried", "--target", TARGET, "-p", "triad-grade", "--target-dir"]);
+    cargo.arg(target);
     let output = cargo.current_dir(root()).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    Some(target.join(TARGET).join("release/triad-grade"))
+    Some(target.join(TARGET).join("tried/triad-grade"))
 }
 
 /// Runs a program of a root that holds nothing but what was put there, as root of that machine and without network; where

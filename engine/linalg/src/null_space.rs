@@ -125,20 +125,3 @@ pub fn least_squares(
     }
     (rest * x, null)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_row_that_is_a_sum_of_others_is_left_out() {
-        let matrix =
-            DMatrix::from_row_slice(4, 3, &[1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 1.0, 2.0, 0.0, 0.0, 0.0, 1e-3]);
-        assert_eq!(independent_rows(&matrix, 1e-9), [1, 2, 3]);
-        assert_eq!(independent_rows(&matrix, 1e-2), [1, 2]);
-        let null = left_null_space(&matrix, 1e-9);
-        assert_eq!(null.shape(), (4, 1));
-        assert!(matrix.tr_mul(&null).amax() < 1e-15);
-        assert!((null.norm() - 1.0).abs() < 1e-15);
-    }
-}

@@ -2,6 +2,7 @@
 
 use crate::cargo_command;
 use std::path::Path;
+use std::process::Command;
 
 /// What the second build may use: vectors of four numbers and fused products, as processors have had since 2013.
 const NEWER: &str = "x86-64-v3";
@@ -11,13 +12,18 @@ const IN_PARTS: [&str; 2] = [
     "profile.release.package.triad-linalg.codegen-units=16",
 ];
 
+/// The build for newer processors.
+pub fn build(root: &Path) -> Option<Command> {
+    runs_here().then(|| newer(root, "build"))
+}
+
 /// Compares what `engine/lab/examples/bits.rs` prints in a build for any processor and in one for newer ones.
 pub fn run(root: &Path) -> Result<(), String> {
     if !runs_here() {
         println!("verify: NOT CHECKED: this processor does not run builds for {NEWER}.");
         return Ok(());
     }
-    let (any, newer) = (results(root, &[], "")?, results(root, &IN_PARTS, NEWER)?);
+    let (any, newer) = (results(&mut example(root, "run"))?, results(&mut newer(root, "run"))?);
     let differing: Vec<&str> =
         any.lines().zip(newer.lines()).filter(|(one, other)| one != other).map(|(one, _)| one).collect();
     println!("verify: {} results, {} of them other for {NEWER}", any.lines().count(), differing.len());
@@ -37,17 +43,26 @@ const fn runs_here() -> bool {
     false
 }
 
-/// What the example prints, built with settings of its own and for a processor, if one is named.
-fn results(root: &Path, settings: &[&str], processor: &str) -> Result<String, String> {
+/// The example built, or run; without `--package`, so that the crates have the features with which they were tested.
+fn example(root: &Path, what: &str) -> Command {
     let mut command = cargo_command(root);
-    command.args("run --release --quiet -p triad-lab --example bits".split(' '));
-    for setting in settings {
+    command.args([what, "--release", "--quiet", "--example", "bits"]);
+    command
+}
+
+/// The same for newer processors.
+fn newer(root: &Path, what: &str) -> Command {
+    let mut command = example(root, what);
+    for setting in IN_PARTS {
         command.args(["--config", setting]);
     }
-    if !processor.is_empty() {
-        command.env("RUSTFLAGS", format!("-C target-cpu={processor}"));
-        command.args(["--target-dir", &format!("target/{processor}")]);
-    }
+    command.env("RUSTFLAGS", format!("-C target-cpu={NEWER}"));
+    command.args(["--target-dir", &format!("target/{NEWER}")]);
+    command
+}
+
+/// What the example prints.
+fn results(command: &mut Command) -> Result<String, String> {
     let output = command.output().map_err(|error| format!("cargo: {error}"))?;
     if !output.status.success() {
         return Err(String::from_utf8_lossy(&output.stderr).into_owned());

@@ -4,6 +4,7 @@
 //! that need the network are done only where they are named: `cargo verify deny peers`, before a release. All steps build in the release profile, so that build scripts and macros are compiled once. A step that fails does not stop
 //! those after it, but the program ends with a failure.
 
+mod ahead;
 mod bits;
 mod deny;
 mod lti;
@@ -21,13 +22,19 @@ struct Step {
     name: &'static str,
     purpose: &'static str,
     run: fn(&Path) -> Result<(), String>,
+    /// What it builds that can be made ahead, beside the tests.
+    build: fn(&Path) -> Option<Command>,
     /// Whether it is done only where it is named: it needs the network, and programs or packages that nothing else needs.
     named: bool,
 }
 
 impl Step {
     const fn new(name: &'static str, purpose: &'static str, run: fn(&Path) -> Result<(), String>) -> Self {
-        Self { name, purpose, run, named: false }
+        Self { name, purpose, run, build: |_| None, named: false }
+    }
+
+    const fn building(self, build: fn(&Path) -> Option<Command>) -> Self {
+        Self { build, ..self }
     }
 
     const fn if_named(self) -> Self {
@@ -35,16 +42,19 @@ impl Step {
     }
 }
 
+/// The step that leaves the processors idle now and then.
+const TESTS: &str = "test";
+
 /// The steps in their order.
 const STEPS: [Step; 14] = [
     Step::new("setup", "install what the tests need: Chromium, Octave, packages of npm and PyPI", setup::run),
     Step::new("format", "cargo fmt", |root| cargo(root, "fmt --all --check")),
-    Step::new("test", "all tests of all crates", |root| {
-        cargo(root, "test --release --workspace --no-fail-fast")
-    }),
-    Step::new("bits", "the same results from builds for old and for new processors", bits::run),
+    Step::new(TESTS, "all tests of all crates", tests),
+    Step::new("bits", "the same results from builds for old and for new processors", bits::run)
+        .building(bits::build),
     Step::new("size", "the program is at most 56 MB", size),
-    Step::new("python", "the Python module: its wheel, its types, its tests and its notebooks", python::run),
+    Step::new("python", "the Python module: its wheel, its types, its tests and its notebooks", python::run)
+        .building(python::build),
     Step::new("lint", "clippy on all targets, the fuzz targets included, without warnings", |root| {
         let targets = "--workspace --all-targets --features triad-fuzz/fuzzing";
         cargo(root, &format!("clippy --release --quiet {targets} -- -D warnings"))
@@ -77,6 +87,17 @@ const STEPS: [Step; 14] = [
 /// institutions, lectures and an allocator that gives memory back to 52.6, joints in vectors and the German of notes to 53.7, hinges in space and
 /// single bodies in vectors and searches of four times at once to 54.8.
 const LARGEST: f64 = 56.0;
+
+/// All tests. The server is the largest crate, and its own tests need it once more: they have it unoptimized, in a quarter of the time.
+fn tests(root: &Path) -> Result<(), String> {
+    let parts =
+        ["--bins --examples --test *", "--lib --config profile.release.package.triad.opt-level=0", "--doc"];
+    let failed: Vec<String> = parts
+        .iter()
+        .filter_map(|part| cargo(root, &format!("test --release --workspace --no-fail-fast {part}")).err())
+        .collect();
+    if failed.is_empty() { Ok(()) } else { Err(failed.join("; ")) }
+}
 
 fn size(root: &Path) -> Result<(), String> {
     cargo(root, "build --release --quiet --workspace")?;
@@ -137,6 +158,9 @@ fn all_pass(steps: &[&Step], root: &Path) -> bool {
     for step in steps {
         println!("\nverify: step {} - {}", step.name, step.purpose);
         let began = Instant::now();
+        if step.name == TESTS {
+            ahead::begin(steps.iter().filter_map(|step| (step.build)(root)).collect());
+        }
         let result = (step.run)(root);
         passed &= result.is_ok();
         let said = result.map_or_else(|why| format!("FAILED: {why}"), |()| "ok".to_owned());

@@ -12,6 +12,8 @@ use std::process::{Command, Stdio};
 const USABLE: &str = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))";
 /// What the tests import, and what builds the wheel.
 const NEEDED: &str = "engine/python/tests/requirements.txt";
+/// Where its wheel is put.
+const WHEELS: &str = "target/python/wheels";
 
 fn environment(root: &Path) -> PathBuf {
     root.join("target/python/venv")
@@ -52,20 +54,31 @@ pub fn install(root: &Path) -> Result<(), String> {
     fs::write(installed(root), needed).map_err(|error| error.to_string())
 }
 
+/// The module, as its wheel will have it; `None` where it is left out.
+pub fn build(root: &Path) -> Option<Command> {
+    installed(root).exists().then(|| maturin(root, "target/python/ahead"))
+}
+
+/// Builds the wheel into a folder.
+fn maturin(root: &Path, wheels: &str) -> Command {
+    let mut maturin = Command::new(python(root));
+    maturin.args(["-m", "maturin", "build", "--profile", "tried", "--quiet"]);
+    maturin.args(["--manifest-path", "engine/python/Cargo.toml", "--target-dir", "target/python", "--out"]);
+    maturin.arg(wheels).current_dir(root);
+    maturin
+}
+
 /// Builds the wheel, installs it and runs its tests beside the program.
 pub fn run(root: &Path) -> Result<(), String> {
     if !installed(root).exists() {
         println!("verify: NOT CHECKED: the Python module; `cargo verify setup` says what is missing");
         return Ok(());
     }
-    let wheels = root.join("target/python/wheels");
+    let wheels = root.join(WHEELS);
     if wheels.exists() {
         fs::remove_dir_all(&wheels).map_err(|error| error.to_string())?;
     }
-    let mut maturin = Command::new(python(root));
-    maturin.args(["-m", "maturin", "build", "--release", "--quiet"]);
-    maturin.args(["--manifest-path", "engine/python/Cargo.toml", "--target-dir", "target/python", "--out"]);
-    must(maturin.arg(&wheels).current_dir(root))?;
+    must(&mut maturin(root, WHEELS))?;
     let wheel = fs::read_dir(&wheels).map_err(|error| error.to_string())?.flatten().next();
     let wheel = wheel.ok_or("maturin built no wheel")?.path();
     let mut pip = Command::new(python(root));

@@ -107,7 +107,8 @@ fn given_parts(held: &Model, model: &Model) -> Vec<Given> {
 /// y with the places of some bodies from one state and those of the others from another.
 fn mixed(system: &System, others: &[f64], some: &[f64], of_some: impl Fn(usize) -> bool) -> Vec<f64> {
     let mut y = others.to_vec();
-    for (_, described) in system.bodies.iter().enumerate().filter(|(body, _)| of_some(*body)) {
+    for body in (0..system.bodies.len()).filter(|body| of_some(*body)) {
+        let described = &system.bodies[body];
         let at = described.layout.position(&some[..system.coordinates]);
         described.layout.store(&at, &mut y[..system.coordinates]);
     }

@@ -54,7 +54,7 @@ use constraints::{Angles, JointPoints, NOWHERE, Prescribed, Rows, Schur};
 use lanes::LaneVector;
 use layout::bundles;
 use loads::Loads;
-use pulp::Simd;
+use pulp::{Arch, Simd};
 use regularization::InertiaRegularization;
 use work::WorkBetween;
 
@@ -92,6 +92,8 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     loads: Loads,
     /// Whether rows, angles, loads or what is prescribed ask for values of features in every order.
     needs_values: bool,
+    /// What the kernels are compiled for.
+    instructions: Arch,
     /// Time of the state, s.
     time: f64,
     /// Time of the next breakpoint of a prescribed function, s.
@@ -188,6 +190,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         });
         let needs_values = rows.curved() || !angles.is_empty() || !loads.is_empty() || !prescribed.is_empty();
         Self {
+            instructions: Arch::new(),
             time: 0.0,
             next_break: f64::INFINITY,
             power: vec![0.0; if system.is_conservative() { 0 } else { stride }],
@@ -228,6 +231,11 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             transport: None,
             row_sizes: Vec::new(),
         }
+    }
+
+    /// From now on uses such instructions, and not what the processor has; before it carries errors or evaluates inside steps.
+    pub fn restrict(&mut self, instructions: Arch) {
+        self.instructions = instructions;
     }
 
     /// Whether entries of the matrix that never change are written once.

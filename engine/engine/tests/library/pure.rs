@@ -25,8 +25,11 @@ fn find(folder: &Path, words: &[&str], found: &mut Vec<String>) {
 /// With `test = false` they would never run.
 #[test]
 fn the_library_has_no_tests_in_its_sources() {
+    let engine = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let mut found = Vec::new();
-    find(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &["#[test]", "cfg(test)"], &mut found);
+    for name in ["linalg", "dynamics", "engine"] {
+        find(&engine.join(name).join("src"), &["#[test]", "cfg(test)"], &mut found);
+    }
     assert!(found.is_empty(), "{found:#?}");
 }
 

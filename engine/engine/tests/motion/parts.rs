@@ -4,6 +4,8 @@
 #[allow(dead_code, reason = "the tests use some of it")]
 #[path = "../../src/integrate/hermite.rs"]
 mod hermite;
+#[path = "../../../dynamics/src/dynamics/elimination/friction/least.rs"]
+mod least;
 #[allow(dead_code, reason = "the tests use some of it")]
 #[path = "../../src/integrate/integrator/progress.rs"]
 mod progress;
@@ -12,6 +14,8 @@ mod progress;
 mod step;
 
 use hermite::{cubic, quintic};
+use least::least_friction;
+use nalgebra::Vector3;
 use progress::ProgressMonitor;
 use step::StepRecord;
 
@@ -81,4 +85,20 @@ fn the_last_step_ends_at_the_end_without_a_sliver() {
     assert!(record.has_ended(1.0) && !record.has_ended(0.5));
     assert!((record.part(0.55) - 0.5).abs() < 1e-15);
     assert!(record.next_size(1e-17, 2.0).is_err());
+}
+
+#[test]
+fn the_least_friction_is_found_or_there_is_none() {
+    let (u, none) = (Vector3::new(3.0, 4.0, 0.0), Vector3::zeros());
+    assert_eq!(least_friction(0.5, &[u, none], &[none, none]), Some(2.5));
+    assert_eq!(least_friction(-0.5, &[u, none], &[none, none]), Some(-2.5));
+    // f = ½ |5 + f|.
+    let found = least_friction(0.5, &[u, none], &[u / 5.0, none]).unwrap_or(f64::NAN);
+    assert!((found - 5.0).abs() < 1e-14, "{found}");
+    // f = 2 |5 − f|: 10/3 and 10; the lesser one goes over into that of small coefficients.
+    let found = least_friction(2.0, &[u, none], &[u / -5.0, none]).unwrap_or(f64::NAN);
+    assert!((found - 10.0 / 3.0).abs() < 1e-14, "{found}");
+    assert_eq!(least_friction(2.0, &[u, none], &[u / 5.0, none]), None, "it locks");
+    assert_eq!(least_friction(f64::NAN, &[u, none], &[u / 5.0, none]), None);
+    assert_eq!(least_friction(0.0, &[u, none], &[u, none]), Some(0.0));
 }

@@ -4,19 +4,20 @@
 //! leave as many scalar equations as there are such loads. Each has a concave left side, so that Newton's method comes to the
 //! least friction that satisfies it from below; they are solved in turns.
 
+mod least;
+
 use super::{Elimination, Multipliers};
 use crate::state::State;
 use crate::system::System;
 use crate::system::contact::DryFriction;
 use crate::system::natural::NaturalCoordinates;
+use least::least_friction;
 use nalgebra::{Matrix3, Vector3};
 
 /// Rounds after which frictions that load each other count as locked.
 const MAX_ROUNDS: usize = 200;
 /// Change of a friction in a round, relative to the largest of them, below which they are found.
 const SETTLED: f64 = 1e-15;
-/// Newton steps for one friction; four or five are usual.
-const MAX_STEPS: usize = 60;
 
 /// Frictions at a state, and what they are found from.
 #[derive(Clone, Debug)]
@@ -89,37 +90,6 @@ impl Frictions {
     }
 }
 
-/// The friction f of least size with f = c (|u₁ + f w₁| + |u₂ + f w₂|), if there is one.
-fn least_friction(c: f64, u: &[Vector3<f64>; 2], w: &[Vector3<f64>; 2]) -> Option<f64> {
-    let (sign, c) = (1.0f64.copysign(c), c.abs());
-    let mut x = 0.0;
-    for _ in 0..MAX_STEPS {
-        let (mut value, mut slope) = (x, 1.0);
-        for (u, w) in u.iter().zip(w) {
-            let w = w * sign;
-            let end = u + w * x;
-            let pressing = end.norm();
-            value -= c * pressing;
-            // Where nothing presses yet, it is about to.
-            slope -= c * if pressing > 0.0 { end.dot(&w) / pressing } else { w.norm() };
-        }
-        // Beyond the greatest value there is no root; false for NaN as well.
-        let rising = slope > 0.0;
-        if value >= 0.0 {
-            break;
-        }
-        if !rising {
-            return None;
-        }
-        let next = x - value / slope;
-        if next <= x {
-            break;
-        }
-        x = next;
-    }
-    x.is_finite().then_some(sign * x)
-}
-
 /// The rate of the load's coordinate, m/s or rad/s.
 fn rate(system: &System, state: &State, friction: &DryFriction) -> f64 {
     system.loads[friction.load].coordinate(state).map_or(0.0, |(_, rate)| rate)
@@ -185,26 +155,5 @@ impl Multipliers<'_> {
     pub fn dry_friction(&self, friction: &DryFriction) -> [f64; 2] {
         let rate = rate(self.system, self.state, friction);
         [friction.factor(rate) * self.pressing(friction), rate]
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_least_friction_is_found_or_there_is_none() {
-        let (u, none) = (Vector3::new(3.0, 4.0, 0.0), Vector3::zeros());
-        assert_eq!(least_friction(0.5, &[u, none], &[none, none]), Some(2.5));
-        assert_eq!(least_friction(-0.5, &[u, none], &[none, none]), Some(-2.5));
-        // f = ½ |5 + f|.
-        let found = least_friction(0.5, &[u, none], &[u / 5.0, none]).unwrap_or(f64::NAN);
-        assert!((found - 5.0).abs() < 1e-14, "{found}");
-        // f = 2 |5 − f|: 10/3 and 10; the lesser one goes over into that of small coefficients.
-        let found = least_friction(2.0, &[u, none], &[u / -5.0, none]).unwrap_or(f64::NAN);
-        assert!((found - 10.0 / 3.0).abs() < 1e-14, "{found}");
-        assert_eq!(least_friction(2.0, &[u, none], &[u / 5.0, none]), None, "it locks");
-        assert_eq!(least_friction(f64::NAN, &[u, none], &[u / 5.0, none]), None);
-        assert_eq!(least_friction(0.0, &[u, none], &[u, none]), Some(0.0));
     }
 }

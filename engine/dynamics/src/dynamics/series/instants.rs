@@ -6,7 +6,7 @@ use super::bodies::{Bodies, FeatureSlot};
 use super::constraints::CommonPointProduct;
 use super::lanes::{Lane, plus};
 use crate::system::System;
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 use std::ops::Range;
 use triad_linalg::block_cholesky::PivotLanes;
 
@@ -172,9 +172,9 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Pivot products of the joints at L times after the start of the last step, which was cut at order `order`. `None` if they can
     /// only be found one after another.
     pub fn pivot_products_at(&mut self, tau: &Lane<L>, order: usize) -> Option<&[Lane<L>]> {
-        let Self { q, stride, instants, schur, .. } = self;
+        let Self { instructions, q, stride, instants, schur, .. } = self;
         let instants = instants.as_deref_mut()?;
-        Arch::new().dispatch(Look { instants, q: q.as_slice(), stride: *stride, order, tau });
+        instructions.dispatch(Look { instants, q: q.as_slice(), stride: *stride, order, tau });
         schur.factor.eliminate(&mut instants.pivots);
         Some(instants.pivots.pivot_products())
     }

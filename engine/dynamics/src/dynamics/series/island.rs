@@ -6,6 +6,7 @@ use crate::newton::Projectable;
 use crate::system::System;
 use crate::system::index::SolverRow;
 use nalgebra::Vector3;
+use pulp::Arch;
 
 /// The series, bundled as suits the number of bodies.
 #[derive(Clone, Debug)]
@@ -51,6 +52,11 @@ impl IslandSeries {
             1 => Bundled::NarrowPlanar(Box::new(Series::planar(flat, order, turns))),
             _ => Bundled::WidePlanar(Box::new(Series::planar(flat, order, turns))),
         })
+    }
+
+    /// From now on uses such instructions, and not what the processor has; before it carries errors or evaluates inside steps.
+    pub fn restrict(&mut self, instructions: Arch) {
+        with!(&mut self.0, s => s.restrict(instructions));
     }
 
     /// Whether it moves in a plane.

@@ -6,7 +6,6 @@ use super::expand::Value;
 use crate::model::BodyRef;
 use crate::system::System;
 use crate::system::load::SystemLoad;
-use pulp::Arch;
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Takes over y = (q, q̇) at time t as the point of expansion.
@@ -63,7 +62,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     pub fn interpolate(&self, system: &System, tau: f64, order: usize, y: &mut [f64]) {
         for b in 0..self.bundles.len() {
             let coefficients = &self.q[b * self.stride..=b * self.stride + order];
-            self.store_bundle(system, b, &Arch::new().dispatch(Value::<L, B> { coefficients, tau }), y);
+            self.store_bundle(system, b, &self.instructions.dispatch(Value::<L, B> { coefficients, tau }), y);
         }
     }
 }

@@ -6,7 +6,7 @@ use super::instants::Instants;
 use super::{Bodies, Series};
 use crate::newton::{Movable, project_positions, project_velocities, rules};
 use crate::system::System;
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 use triad_linalg::{larger, larger_or_nan, raise};
 
 /// A factorization of which only the pivots are wanted, to be compiled for each set of vector instructions.
@@ -56,7 +56,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// The copy, in the state a time τ after the start of the last step, which was cut at order `order`.
     pub fn probe_at(&mut self, start: f64, tau: f64, order: usize) -> Option<&mut Self> {
-        let Self { q, stride, probe, angles, .. } = self;
+        let Self { instructions, q, stride, probe, angles, .. } = self;
         let probe = probe.as_deref_mut()?;
         for (own, given) in probe.angles.list.iter_mut().zip(&angles.list) {
             own.state.reference = given.state.reference;
@@ -65,7 +65,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         probe.set_time(start + tau);
         for (b, state) in probe.state.iter_mut().enumerate() {
             let coefficients = &q[b * *stride..=b * *stride + order];
-            *state = Arch::new().dispatch(Value::<L, B> { coefficients, tau });
+            *state = instructions.dispatch(Value::<L, B> { coefficients, tau });
         }
         Some(probe)
     }
@@ -130,7 +130,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
     /// Pivot products of the joints at the state, or where it was before the last correction of a projection that has converged.
     pub fn pivot_products_here(&mut self) -> &[f64] {
         if !self.factor_is_here {
-            Arch::new().dispatch(PivotProducts(self));
+            self.instructions.dispatch(PivotProducts(self));
         }
         self.pivot_products()
     }

@@ -6,7 +6,7 @@ use super::work::Taken;
 use super::{Bodies, Series};
 use crate::newton::{Ending, Projectable, Projected, project_positions, project_velocities, rules};
 use crate::system::passing::{met, shortest_step};
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 use triad_linalg::larger;
 
 /// Correction of the positions, in tolerances, above which S is factored again.
@@ -139,18 +139,18 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// The same where S is factored.
     pub(super) fn evaluate_here(&mut self) {
-        Arch::new().dispatch(Evaluate(self));
+        self.instructions.dispatch(Evaluate(self));
     }
 
     /// Parts are called, not inlined: a step would otherwise contain several copies of each.
     #[inline(never)]
     pub(super) fn call(&mut self, part: Part) -> f64 {
-        Arch::new().dispatch(Call(self, part))
+        self.instructions.dispatch(Call(self, part))
     }
 
     /// Takes a step from the state, at which S must be factored, and factors S at its end.
     pub fn step(&mut self, plan: StepPlan) -> SeriesStep {
-        Arch::new().dispatch(Step(self, plan))
+        self.instructions.dispatch(Step(self, plan))
     }
 
     /// The step that the series at the state allow, at which S must be factored, if no breakpoint were in the way, s.
@@ -401,6 +401,3 @@ fn power(x: f64, n: usize) -> f64 {
     }
     all
 }
-
-#[cfg(test)]
-mod tests;

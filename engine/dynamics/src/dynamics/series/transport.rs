@@ -15,7 +15,6 @@ use crate::newton::Projectable;
 use crate::system::System;
 use differences::{Between, Differ, Missed, Size, Within, moved, moved_both, value};
 use energy::Energy;
-use pulp::Arch;
 use std::mem::swap;
 use tail::Tail;
 use triad_linalg::larger;
@@ -151,7 +150,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         for b in 0..self.bundles.len() {
             let state = if part < 1.0 {
                 let at = b * self.stride + order;
-                Arch::new().dispatch(Within {
+                self.instructions.dispatch(Within {
                     transport,
                     b,
                     tau,
@@ -316,7 +315,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         let differ =
             Differ::<L, B> { of: &series.q, twin, orders, s, h, length, enough, carried, terms, arrived };
         let after;
-        (*order, after, self.unfinished) = Arch::new().dispatch(differ);
+        (*order, after, self.unfinished) = series.instructions.dispatch(differ);
         after
     }
 
@@ -353,7 +352,7 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
             added: &mut self.added,
             error: &mut self.error,
         };
-        let (tail, [size, added]) = Arch::new().dispatch(missed);
+        let (tail, [size, added]) = series.instructions.dispatch(missed);
         self.tail = tail;
         self.worth = added.after(step.1, length);
         self.grown = size.after(step.1, length);
@@ -404,8 +403,12 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         if let Some(energy) = energy {
             energy.give(twin, &series.state, s, self.step.1, error);
         }
-        self.size =
-            Arch::new().dispatch(Between::<L, B> { here: &series.state, there: &twin.state, s, out: error });
+        self.size = series.instructions.dispatch(Between::<L, B> {
+            here: &series.state,
+            there: &twin.state,
+            s,
+            out: error,
+        });
     }
 
     /// Moves to x − s e and corrects the positions there. Returns whether Newton's method converges, or need not: a correction is

@@ -10,7 +10,6 @@ use super::{Bodies, Series};
 use crate::newton::Projectable;
 use crate::system::System;
 use crate::system::index::SolverRow;
-use pulp::Arch;
 use triad_linalg::larger;
 
 mod between;
@@ -120,7 +119,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
 
     /// The power by the equations a time τ after the start of a step.
     fn power_at(&mut self, Taken { start, order, .. }: Taken, tau: f64) -> f64 {
-        let Self { q, stride, angles, meter, .. } = self;
+        let Self { instructions, q, stride, angles, meter, .. } = self;
         let Some(meter) = meter.as_deref_mut() else { return f64::NAN };
         for (own, given) in meter.angles.list.iter_mut().zip(&angles.list) {
             own.state.reference = given.state.reference;
@@ -128,7 +127,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         meter.set_time(start + tau);
         for (b, state) in meter.state.iter_mut().enumerate() {
             let coefficients = &q[b * *stride..=b * *stride + order];
-            *state = Arch::new().dispatch(Value::<L, B> { coefficients, tau });
+            *state = instructions.dispatch(Value::<L, B> { coefficients, tau });
         }
         meter.linearize();
         meter.evaluate_here();

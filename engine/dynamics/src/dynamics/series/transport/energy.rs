@@ -7,7 +7,7 @@ use crate::dynamics::series::lanes::{Lane, sum};
 use crate::dynamics::series::step::Part;
 use crate::dynamics::series::{Bodies, Series};
 use crate::system::System;
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 /// Part of the velocities above which a change of them is not made: the energy tells nothing of mechanisms that hardly move.
 const SMALL: f64 = 0.05;
@@ -64,8 +64,9 @@ impl<const L: usize, B: Bodies<L>> Energy<L, B> {
 
     /// The energy of the twin's state, J, and twice the kinetic energies of its velocities and of its accelerations in place of them.
     fn measure(&self, twin: &mut Series<L, B>) -> (f64, [f64; 2]) {
+        let instructions = twin.instructions;
         let [twice, accelerations, fallen] =
-            Arch::new().dispatch(Measured { series: twin, start: &self.start });
+            instructions.dispatch(Measured { series: twin, start: &self.start });
         let mut springs = 0.0;
         if !twin.loads.is_empty() {
             twin.call(Part::Settle);
