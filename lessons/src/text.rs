@@ -28,7 +28,19 @@ pub(crate) fn plain(value: f64) -> String {
     rounded.to_string()
 }
 
-/// Words of a text: what has a letter between spaces.
+/// Letters of writing without spaces that count as a word: Chinese has about so many, others more.
+const LETTERS_OF_A_WORD: usize = 2;
+
+/// Words of a text: what has a letter between spaces; where words are written without spaces between them, so many letters.
 pub(crate) fn words(text: &str) -> usize {
-    text.split_whitespace().filter(|word| word.chars().any(char::is_alphabetic)).count()
+    let apart = text.split(|c: char| c.is_whitespace() || is_written_without_spaces(c));
+    let letters = text.chars().filter(|c| is_written_without_spaces(*c)).count();
+    apart.filter(|word| word.chars().any(char::is_alphabetic)).count() + letters.div_ceil(LETTERS_OF_A_WORD)
+}
+
+/// Whether a character is a letter of Thai, Lao, Tibetan, Burmese, Khmer, Japanese or Chinese.
+fn is_written_without_spaces(c: char) -> bool {
+    let ranges = matches!(c, '\u{e00}'..='\u{109f}' | '\u{1780}'..='\u{17ff}' | '\u{3040}'..='\u{30ff}' | '\u{3400}'..='\u{4dbf}'
+        | '\u{4e00}'..='\u{9fff}' | '\u{f900}'..='\u{faff}' | '\u{20000}'..='\u{3ffff}');
+    ranges && c.is_alphabetic()
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::answers::TypedValue;
+use crate::text::words;
 use crate::{
     Answer, Attempt, Course, Lesson, Mark, Submission, Verdict, grade, reference_submission, standing,
 };
@@ -57,4 +58,13 @@ fn no_number_of_explanations_opens_anything_and_none_is_lost() {
     let place = lesson.exercise.questions.iter().position(|q| q.id == ID).unwrap();
     let stands = standing(&lesson, &attempts)[place];
     assert_eq!((stands.attempts, stands.open, stands.left, stands.best), (8, false, None, 0.0));
+}
+
+/// As the page counts them: web/src/exercise/explanation.test.ts has the same.
+#[test]
+fn words_are_counted_also_where_no_spaces_are_written() {
+    assert_eq!(words("  The bar\ndoes no work: 1 + 1 = 2 … "), 5);
+    assert_eq!(words("λ größer z. B."), 4);
+    assert_eq!(words("因为约束力不做功，所以能量守恒。"), 7);
+    assert_eq!(words("ไม่ทำงาน λ ของ Φ 2"), 7);
 }

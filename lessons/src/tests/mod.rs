@@ -16,6 +16,7 @@ mod properties;
 mod refusals;
 mod rounded_files;
 mod tasks;
+mod typed;
 mod typical_mistakes;
 mod ways_of_writing;
 mod wrong_tables;

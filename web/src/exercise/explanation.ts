@@ -4,9 +4,16 @@ import { h, setText } from "../core/dom";
 import { t } from "../core/texts";
 import type { Inputs, QuestionContext } from "./field";
 
-/** Words as the grader counts them: what has a letter between spaces. */
-export const words = (text: string): number =>
-  text.split(/\s+/u).filter((word) => /\p{Alphabetic}/u.test(word)).length;
+/** Letters of Thai, Lao, Tibetan, Burmese, Khmer, Japanese and Chinese, whose words have no spaces between them. */
+const WITHOUT_SPACES =
+  /(?=\p{Alphabetic})[\u{e00}-\u{109f}\u{1780}-\u{17ff}\u{3040}-\u{30ff}\u{3400}-\u{4dbf}\u{4e00}-\u{9fff}\u{f900}-\u{faff}\u{20000}-\u{3ffff}]/gu;
+
+/** Words as the grader counts them: what has a letter between spaces; two letters where there are no spaces. */
+export function words(text: string): number {
+  const letters = text.match(WITHOUT_SPACES)?.length ?? 0;
+  const apart = text.replace(WITHOUT_SPACES, " ").split(/\s+/u);
+  return apart.filter((word) => /\p{Alphabetic}/u.test(word)).length + Math.ceil(letters / 2);
+}
 
 export function explanationInput(
   question: Question,
