@@ -124,7 +124,7 @@ fn unnamed(plain: &str) -> String {
             text = text[at + 1..].trim();
         }
     }
-    let mut text = text.trim_end_matches(['.', ';']);
+    text = text.trim_end_matches(['.', ';']);
     for name in NAMES {
         if let Some(rest) =
             text.strip_prefix(name).filter(|rest| rest.trim_start().starts_with(['(', '[', '{']))
@@ -133,7 +133,13 @@ fn unnamed(plain: &str) -> String {
         }
     }
     let Some(at) = text.find("dtype") else { return text.to_owned() };
-    let behind = text[at..].split_once(')').map_or("", |(_, behind)| behind);
+    // Up to the end of the array's own bracket: `dtype=np.dtype(float))` has another within.
+    let mut depth = 0;
+    let end = text[at..].find(|c| {
+        depth += i32::from(c == '(') - i32::from(c == ')');
+        depth < 0
+    });
+    let behind = end.map_or("", |end| &text[at + end + 1..]);
     text[..at].trim_end().trim_end_matches(',').to_owned() + ")" + behind
 }
 

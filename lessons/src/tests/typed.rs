@@ -42,7 +42,7 @@ fn a_vector_has_its_factor_and_a_matrix_its_transposition() {
     assert_eq!(mark(&screw, "orientation", "[0 1 0; -1 0 0; 0 0 1]^T"), Mark::Right);
     assert_eq!(mark(&screw, "orientation", "[0 -1 0; 1 0 0; 0 0 1].T"), Mark::Wrong);
     let array = |behind: &str| format!("np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]]{behind}");
-    for behind in [").T", ", dtype=float).T", ", dtype=float).transpose()"] {
+    for behind in [").T", ", dtype=float).T", ", dtype=float).transpose()", ", dtype=np.dtype(float)).T"] {
         assert_eq!(mark(&screw, "orientation", &array(behind)), Mark::Right, "{behind}");
     }
     assert_eq!(mark(&screw, "orientation", &array(", dtype=float)")), Mark::Wrong);

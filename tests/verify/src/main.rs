@@ -1,8 +1,9 @@
 //! `cargo verify`: everything that must hold before a change is taken, step by step, with the time of each.
 //!
 //! `cargo verify setup` alone installs what the tests need and the machine lacks; no test installs anything itself. Steps
-//! that need the network are done only where they are named: `cargo verify deny peers`, before a release. All steps build in the release profile, so that build scripts and macros are compiled once. A step that fails does not stop
-//! those after it, but the program ends with a failure.
+//! that need the network are done only where they are named: `cargo verify deny peers`, before a release. Steps build in the release profile, so that build scripts and macros
+//! are compiled once, but for what is built for another place: that has the profile `tried` where its speed is no matter. A step that
+//! fails does not stop those after it, but the program ends with a failure.
 
 mod ahead;
 mod bits;
@@ -88,7 +89,7 @@ const STEPS: [Step; 14] = [
 /// single bodies in vectors and searches of four times at once to 54.8.
 const LARGEST: f64 = 56.0;
 
-/// All tests. The server is the largest crate, and its own tests need it once more: they have it unoptimized, in a quarter of the time.
+/// All tests. The server is the largest crate, and its own tests need it once more: they have it unoptimized, which is compiled sooner.
 fn tests(root: &Path) -> Result<(), String> {
     let parts =
         ["--bins --examples --test *", "--lib --config profile.release.package.triad.opt-level=0", "--doc"];

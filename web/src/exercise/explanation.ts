@@ -8,11 +8,14 @@ import type { Inputs, QuestionContext } from "./field";
 const WITHOUT_SPACES =
   /(?=\p{Alphabetic})[\u{e00}-\u{109f}\u{1780}-\u{17ff}\u{3040}-\u{30ff}\u{3400}-\u{4dbf}\u{4e00}-\u{9fff}\u{f900}-\u{faff}\u{20000}-\u{3ffff}]/gu;
 
-/** Words as the grader counts them: what has a letter between spaces; two letters where there are no spaces. */
+/** Of these letters so many count as a word. */
+const LETTERS_OF_A_WORD = 2;
+
+/** Words as the grader counts them: what has a letter between spaces; so many letters where there are no spaces. */
 export function words(text: string): number {
   const letters = text.match(WITHOUT_SPACES)?.length ?? 0;
   const apart = text.replace(WITHOUT_SPACES, " ").split(/\s+/u);
-  return apart.filter((word) => /\p{Alphabetic}/u.test(word)).length + Math.ceil(letters / 2);
+  return apart.filter((word) => /\p{Alphabetic}/u.test(word)).length + Math.ceil(letters / LETTERS_OF_A_WORD);
 }
 
 export function explanationInput(
