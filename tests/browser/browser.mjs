@@ -23,14 +23,17 @@ export async function faults(page, { within, impacts } = {}) {
 /** Those of its rules without which somebody cannot use the page. */
 export const SERIOUS = ["serious", "critical"];
 
-/** Waits until `read` gives something that `good` accepts; `patience`, in milliseconds, ends what hangs and decides nothing else. */
-export async function until(what, read, good, { patience = 60_000 } = {}) {
+/**
+ * Waits until `read` gives something that `good` accepts; `patience`, in milliseconds, ends what hangs and decides nothing else.
+ * `pause`, ms: what is dear to read, such as a picture, is asked for so seldom that the page gets on meanwhile.
+ */
+export async function until(what, read, good, { patience = 60_000, pause = 50 } = {}) {
   const end = performance.now() + patience;
   let last;
   while (performance.now() < end) {
     last = await read();
     if (good(last)) return last;
-    await setTimeout(50);
+    await setTimeout(pause);
   }
   throw new Error(`${what}: still ${JSON.stringify(last)} after ${patience / 1000} s`);
 }

@@ -39,8 +39,10 @@ const picture = async (name, target = page) => {
   console.log(`picture ${path}`);
 };
 
-const until = (what, read, good) => patiently(what, read, good, { patience: PATIENCE });
+const until = (what, read, good, more) => patiently(what, read, good, { patience: PATIENCE, ...more });
 
+// Pictures of a page that the processor draws take a good part of a second, ms.
+const BETWEEN_PICTURES = 2_000;
 // A blank or broken picture has fewer colours.
 const BLANK = 40;
 /** How many different colours a screenshot of the viewer has: a blank or broken picture has a handful. */
@@ -134,7 +136,7 @@ async function first() {
   await page.getByRole("button", { name: "Open in rerun" }).click();
   const viewer = page.locator("[data-viewer]");
   await viewer.locator("canvas").waitFor();
-  const drawn = await until("the viewer draws", () => colours(viewer), (count) => count > BLANK);
+  const drawn = await until("the viewer draws", () => colours(viewer), (count) => count > BLANK, { pause: BETWEEN_PICTURES });
   say(`the viewer shows ${drawn} colours`);
   await picture("viewer");
 
@@ -159,7 +161,7 @@ async function first() {
   const before = await viewer.screenshot();
   await control("Reset to the start").click();
   await until("reset", clock, (time) => time === 0);
-  await until("the viewer follows the clock", async () => (await viewer.screenshot()).equals(before), (same) => !same);
+  await until("the viewer follows the clock", async () => (await viewer.screenshot()).equals(before), (same) => !same, { pause: BETWEEN_PICTURES });
 
   await page.getByRole("tab", { name: "Jacobian" }).click();
   await page.getByText("12 columns").waitFor();
@@ -215,7 +217,7 @@ async function later() {
   await page.goto(`${address}/scenes/heavy-top`);
   // The browser remembers that the viewer was opened.
   await page.locator(".has-viewer").waitFor({ state: "attached" });
-  await until("the viewer draws", () => colours(page.locator("[data-viewer]")), (count) => count > BLANK);
+  await until("the viewer draws", () => colours(page.locator("[data-viewer]")), (count) => count > BLANK, { pause: BETWEEN_PICTURES });
   const place = await page.evaluate(() => [scrollY, document.activeElement?.tagName]);
   assert.deepEqual(place, [0, "BODY"], "the viewer starts below the text and takes neither the place nor the focus");
   say("the results are there after the restart");

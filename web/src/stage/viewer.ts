@@ -27,6 +27,7 @@ export interface ViewerHooks {
 /** Starts the viewer inside `host`. Rejects with a sentence when this browser cannot run it. */
 export async function openViewer(host: HTMLElement, hooks: ViewerHooks): Promise<ViewerHandle> {
   requireWebGl();
+  silenceDetails();
   const { WebViewer } = await import("@rerun-io/web-viewer");
   const viewer = new WebViewer();
   const restore = watchDownload(hooks.progress);
@@ -100,6 +101,14 @@ function handle(viewer: WebViewer, hooks: ViewerHooks): ViewerHandle {
       viewer.stop();
     },
   };
+}
+
+/**
+ * The viewer describes its shaders word by word, some 24 000 lines, and has no option for less: where somebody listens to the console,
+ * it would start a quarter of a minute later.
+ */
+function silenceDetails(): void {
+  console.debug = () => {};
 }
 
 /**
