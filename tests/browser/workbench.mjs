@@ -357,4 +357,27 @@ async function editing() {
   await page.context().close();
 }
 
-await walk({ name: "workbench", pictures, browser, complaints }, byKeyboard, lookingBack, lecture, editing, trouble);
+/** What was computed of other numbers is not shown beside those of now. */
+async function analyses() {
+  const page = await visitor("analyses");
+  await page.goto(`${address}/scenes/simple-pendulum`);
+  await until("the run starts", () => clock(page), (time) => time === 0);
+  const tab = (name) => page.getByRole("tab", { name, exact: true }).click();
+  await tab("Analyses");
+  await page.getByRole("button", { name: "Small vibrations" }).click();
+  await page.getByText("0.498488").waitFor();
+  await tab("Parameters");
+  // With the unit that stands behind the field.
+  const gravity = page.getByLabel(/^Gravity, in/);
+  await gravity.fill("3 m/s²");
+  await gravity.press("Enter");
+  await tab("Analyses");
+  await page.getByText("the result was of the numbers before").waitFor();
+  assert.equal(await page.getByText("0.498488").count(), 0);
+  await page.getByRole("button", { name: "Compute anew" }).click();
+  await page.getByText("0.275664").waitFor();
+  say("an analysis of numbers that were changed is taken away, and computed anew");
+  await page.context().close();
+}
+
+await walk({ name: "workbench", pictures, browser, complaints }, byKeyboard, lookingBack, lecture, editing, analyses, trouble);

@@ -4,13 +4,14 @@
 import { api } from "../api/client";
 import type { AssignedLesson, Policy, PolicyPreview, Somebody } from "../api/types";
 import { h } from "../core/dom";
-import { dateTime, points } from "../core/format";
+import { dateTime, points, typedNumber } from "../core/format";
 import type { Page } from "../core/router";
 import { t } from "../core/texts";
 import { pointsOf } from "../exercise/verdict";
 import { problemNotice, skeleton } from "../ui/notice";
 import { saidSection } from "./explanations";
 import { figuresSection } from "./figures";
+import { local, moment, numberField, percent, shares, sharesField } from "./policy-fields";
 import { regradeSection } from "./regrade";
 
 export function assignmentPage(outlet: HTMLElement, params: string[]): Page {
@@ -40,28 +41,24 @@ export function assignmentPage(outlet: HTMLElement, params: string[]): Page {
   return { title: t("Lesson of the class") };
 }
 
-/** A moment as a field of local time has it. */
-function local(moment: string | null | undefined): string {
-  if (!moment) return "";
-  const at = new Date(moment);
-  return new Date(at.getTime() - at.getTimezoneOffset() * 60_000).toISOString().slice(0, 16);
-}
-
-const moment = (input: HTMLInputElement): string | undefined =>
-  input.value ? new Date(input.value).toISOString() : undefined;
-
 function labelled(label: string, input: HTMLElement, id: string): HTMLElement {
   input.id = id;
   return h("div", { class: "stack tight" }, h("label", { for: id }, label), input);
 }
 
+/** A field for a moment, and the moment in it: to the last digit that of before, where nobody touched it. */
 const when = (
   id: string,
   label: string,
   value: string | null | undefined,
-): [HTMLElement, HTMLInputElement] => {
-  const input = h("input", { type: "datetime-local", class: "field", value: local(value) });
-  return [labelled(label, input, id), input];
+): [HTMLElement, () => string | undefined] => {
+  const shown = local(value);
+  // A browser shows and takes seconds only where it is told to.
+  const step = shown.length > "0000-00-00T00:00".length ? "1" : null;
+  const input = h("input", { type: "datetime-local", class: "field", value: shown, step });
+  const read = (): string | undefined =>
+    input.value === input.defaultValue ? (value ?? undefined) : moment(input);
+  return [labelled(label, input, id), read];
 };
 
 const REVEAL = {
@@ -82,13 +79,6 @@ function choice(id: string, label: string, value: When): [HTMLElement, HTMLSelec
   );
   return [labelled(label, select, id), select];
 }
-
-/** Shares in percent, one after the other. */
-const shares = (text: string): number[] =>
-  text
-    .split(/[\s,;%]+/)
-    .filter(Boolean)
-    .map((word) => Number(word) / 100);
 
 /** What is told when. */
 function revealFields(now: Policy["reveal"]): {
@@ -122,43 +112,23 @@ function policyFields(policy: Policy): { rows: HTMLElement[]; read: () => Policy
   const [dueRow, due] = when("due", t("Due"), policy.due);
   const [closesRow, closes] = when("closes", t("Closes"), policy.closes);
   const [lateRow, late] = when("late", t("Then, until"), policy.late?.at(-1)?.until);
-  const share = h("input", {
-    class: "field number",
-    type: "number",
-    min: "0",
-    max: "100",
-    value: String(100 * (policy.late?.at(-1)?.share ?? 0.5)),
-  });
-  const most = h("input", {
-    class: "field number",
-    type: "number",
-    min: "1",
-    value: String(policy.most_attempts ?? ""),
-  });
-  const falling = h("input", {
-    class: "field",
-    placeholder: "100, 90, 80",
-    value: (policy.falling ?? []).map((one) => 100 * one).join(", "),
-  });
-  const pause = h("input", {
-    class: "field number",
-    type: "number",
-    min: "0",
-    value: String(policy.cooldown_minutes ?? 0),
-  });
+  const share = numberField(percent(policy.late?.at(-1)?.share ?? 0.5), { low: 0, high: 100 });
+  const most = numberField(String(policy.most_attempts ?? ""), { low: 1, whole: true, empty: true });
+  const falling = sharesField(policy.falling ?? []);
+  const pause = numberField(String(policy.cooldown_minutes ?? 0), { low: 0, whole: true });
   const reveal = revealFields(policy.reveal);
   const read = (): Policy => {
-    const until = moment(late);
+    const until = late();
     // Steps before the last are set by the interface; the page keeps them.
     const steps = (policy.late ?? []).slice(0, -1);
     return {
-      opens: moment(opens),
-      due: moment(due),
-      closes: moment(closes),
-      late: until ? [...steps, { until, share: Number(share.value) / 100 }] : [],
-      most_attempts: most.value ? Number(most.value) : undefined,
+      opens: opens(),
+      due: due(),
+      closes: closes(),
+      late: until ? [...steps, { until, share: typedNumber(share.value) / 100 }] : [],
+      most_attempts: most.value.trim() ? typedNumber(most.value) : undefined,
       falling: shares(falling.value),
-      cooldown_minutes: Number(pause.value),
+      cooldown_minutes: typedNumber(pause.value),
       reveal: reveal.read(),
     };
   };
@@ -204,7 +174,7 @@ function policySection(lesson: AssignedLesson, students: Somebody[], again: () =
     { class: "student-lesson" },
     h("h2", null, t("When it is handed in, and what is told")),
     form,
-    previewForm(lesson, students, read),
+    previewForm(lesson, students, () => (form.reportValidity() ? read() : undefined)),
   );
 }
 
@@ -223,8 +193,12 @@ function releaseButton(lesson: AssignedLesson, said: HTMLElement, again: () => v
   return button;
 }
 
-/** What the policy above makes of somebody's work at some time, before it is set. */
-function previewForm(lesson: AssignedLesson, students: Somebody[], read: () => Policy): HTMLElement {
+/** What the policy above makes of somebody's work at some time, before it is set; `read` gives none while a field of it is wrong. */
+function previewForm(
+  lesson: AssignedLesson,
+  students: Somebody[],
+  read: () => Policy | undefined,
+): HTMLElement {
   const who = personChoice(students, t("Somebody new"));
   const at = h("input", { type: "datetime-local", class: "field" });
   const seen = h("div", { "aria-live": "polite" });
@@ -243,8 +217,10 @@ function previewForm(lesson: AssignedLesson, students: Somebody[], read: () => P
   );
   form.addEventListener("submit", (event) => {
     event.preventDefault();
+    const policy = read();
+    if (!policy) return;
     api
-      .previewPolicy(lesson.slug, { policy: read(), person: who.value || undefined, at: moment(at) })
+      .previewPolicy(lesson.slug, { policy, person: who.value || undefined, at: moment(at) })
       .then((preview) => seen.replaceChildren(previewed(preview)))
       .catch((error: unknown) => seen.replaceChildren(problemNotice(error)));
   });
@@ -314,7 +290,7 @@ function personChoice(students: Somebody[], none: string): HTMLSelectElement {
 function extensionSection(lesson: AssignedLesson, students: Somebody[], again: () => void): HTMLElement {
   const who = personChoice(students, t("Choose"));
   const until = h("input", { type: "datetime-local", class: "field" });
-  const more = h("input", { class: "field number", type: "number", min: "0", value: "0" });
+  const more = numberField("0", { low: 0, whole: true });
   const reason = h("input", { class: "field", maxlength: "2000", required: true });
   const said = h("div", { "aria-live": "polite" });
   const failed = (error: unknown): void => said.replaceChildren(problemNotice(error));
@@ -335,7 +311,7 @@ function extensionSection(lesson: AssignedLesson, students: Somebody[], again: (
   );
   form.addEventListener("submit", (event) => {
     event.preventDefault();
-    const body = { until: moment(until), attempts: Number(more.value), reason: reason.value };
+    const body = { until: moment(until), attempts: typedNumber(more.value), reason: reason.value };
     api.extend(lesson.slug, who.value, body).then(again).catch(failed);
   });
   const given = lesson.extensions.map((one) => {

@@ -40,6 +40,19 @@ export function typedNumber(text: string): number {
   return plain === "" ? NaN : Number(plain);
 }
 
+/** The same of a field with a unit behind it: whoever types that unit too means no other number. */
+export function typedIn(unit: string, text: string): number {
+  let rest = text.trimEnd();
+  let parted = rest;
+  for (const sign of [...unit.replace(/\s/g, "")].reverse()) {
+    if (!rest.endsWith(sign)) return typedNumber(text);
+    parted = rest.slice(0, -sign.length);
+    rest = parted.trimEnd();
+  }
+  // The 1 of "1/s" right behind a digit belongs to the number.
+  return /^\d/.test(unit) && parted === rest ? typedNumber(text) : typedNumber(rest);
+}
+
 export function points(value: number): string {
   return minus(Number(value.toFixed(2)).toString());
 }

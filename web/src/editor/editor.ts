@@ -185,7 +185,9 @@ function syntaxProblem(text: string): { problem: SaidProblem; line: number } | u
     problem: {
       code: "not-json",
       said: ["title", "detail"],
-      title: t("Line {line} is not JSON yet", { line }),
+      title: fault.twice
+        ? t("Line {line} has a key that was there before", { line })
+        : t("Line {line} is not JSON yet", { line }),
       detail: fault.why,
     },
   };

@@ -27,6 +27,17 @@ it("the line of a fault is that of what does not fit, whatever the browser says 
   expect(found('{"a": 1} 2')).toBe("1: The scene ended before this.");
 });
 
+it("a key that is written twice is told at its second place, however it is written", () => {
+  expect(firstFault('{"a": 1}')).toBeUndefined();
+  expect(found('{\n"mass": 1,\n"mass": 2\n}')).toMatch(/^3: The key mass is written twice/);
+  expect(found('{\n"b": [{"mass": 1,\n"\\u006dass": 2}]\n}')).toMatch(/^3: The key mass is written twice/);
+  expect(firstFault('{"a": 1, "a": 2}')?.twice).toBe(true);
+  // What is not JSON at all comes first where it stands first.
+  expect(firstFault('{"a": 01, "a": 2}')?.twice).toBeUndefined();
+  // The same key of another object is another one.
+  expect(found('{"a": {"a": 1}, "b": [{"a": 1}, {"a": 2}]}')).toBe("");
+});
+
 it("what is JSON has no fault", () => {
   expect(found('{ "a": [1, -2.5e-3, {"b": "x\\n\\u00e9"}, [], {}], "c": true, "d": null }')).toBe("");
 });

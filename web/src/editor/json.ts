@@ -1,4 +1,4 @@
-// Where a text stops being JSON, and why. Browsers say it in words of their own, in English, and not all of them say where.
+// Where a text stops being JSON, or has a key twice, and why. Browsers say it in words of their own, in English, and not all of them say where.
 
 import { t } from "../core/texts";
 
@@ -6,21 +6,24 @@ export interface Fault {
   /** Offset of what does not fit. */
   at: number;
   why: string;
+  /** A key that is written twice: to JSON it is none, but the engine reads no such scene. */
+  twice?: true;
 }
 
 const NUMBER = /-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][+-]?\d+)?/y;
 const WORD = /[+\-.\w]+/y;
 const SPACE = /[ \t\r\n]*/y;
 
-/** The first place that is not JSON; nothing where the text is JSON. */
+/** The first place that is not JSON, or has a key again; nothing where the text has no such place. */
 export function firstFault(text: string): Fault | undefined {
+  const fault = new Reader(text).read();
+  if (fault) return fault;
   try {
     JSON.parse(text);
     return undefined;
   } catch (error) {
-    // What the reader below does not see, the browser has seen.
-    const fault = new Reader(text).read();
-    return fault ?? { at: text.length, why: error instanceof Error ? error.message : String(error) };
+    // What the reader does not see, the browser has seen.
+    return { at: text.length, why: error instanceof Error ? error.message : String(error) };
   }
 }
 
@@ -57,7 +60,10 @@ class Reader {
   private value(): Fault | undefined {
     this.space();
     const sign = this.sign();
-    if (sign === "{") return this.list("}", () => this.member());
+    if (sign === "{") {
+      const keys = new Set<string>();
+      return this.list("}", () => this.member(keys));
+    }
     if (sign === "[") return this.list("]", () => this.value());
     if (sign === '"') return this.string();
     return this.plain(sign);
@@ -112,15 +118,24 @@ class Reader {
     }
   }
 
-  private member(): Fault | undefined {
+  /** A key and its value; `keys` are those before it. */
+  private member(keys: Set<string>): Fault | undefined {
     if (this.sign() !== '"') {
       const word = this.match(WORD);
       return word === ""
         ? this.stray(this.sign())
         : this.fault(t("The key {word} stands between double quotes.", { word }));
     }
+    const start = this.at;
     const fault = this.string();
     if (fault) return fault;
+    const key = JSON.parse(this.text.slice(start, this.at)) as string;
+    if (keys.has(key))
+      return {
+        ...this.fault(t("The key {key} is written twice: it stands above already.", { key }), start),
+        twice: true,
+      };
+    keys.add(key);
     this.space();
     if (this.sign() !== ":") return this.fault(t("A colon is missing between the key and its value."));
     this.at += 1;

@@ -1,4 +1,5 @@
 import { afterEach, expect, test, vi } from "vitest";
+import { banner } from "../ui/notice";
 import { Session } from "./session";
 
 vi.mock("../core/dom", () => ({ announce: vi.fn() }));
@@ -143,6 +144,31 @@ test("what is pressed before the run is there, or while it answers, is done in o
     'POST /api/v1/sessions/AA-1/play {"speed":2}',
   ]);
   expect(session.pending).toBe(false);
+});
+
+test("what is changed while looking back acts at the newest moment, and that is told", async () => {
+  let reached = 2;
+  answering((request) => {
+    if (request.endsWith("POST /api/v1/sessions")) return [201, state("AA-1", 0)];
+    return [200, state("AA-1", reached)];
+  });
+  const session = new Session({ builtin: "simple-pendulum" });
+  await session.start();
+  await session.step({ seconds: 2 });
+  session.seek(0.5);
+  await session.pull({ body: "bob", point: [0, 0, 0], to: [1, 0, 0] });
+  expect(session.time).toBe(2);
+  expect(vi.mocked(banner).mock.lastCall?.[0]).toBe(
+    "The change acts at the newest moment, 2.000 s: you were looking back at 0.500 s.",
+  );
+  // At the newest moment, and where the run begins anew, there is nothing to tell.
+  vi.mocked(banner).mockClear();
+  await session.pull(null);
+  session.seek(0.5);
+  reached = 0;
+  await session.pull(null);
+  expect(session.time).toBe(0);
+  expect(banner).not.toHaveBeenCalled();
 });
 
 test("a time to run to is not forgotten before the run is there, nor is what is pressed lost with a run that is gone", async () => {

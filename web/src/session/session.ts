@@ -5,6 +5,7 @@ import { between, isNone, type Numbers, none, tidy } from "../api/numbers";
 import { computedHere } from "../api/place";
 import type { AfterChange, Camera, Drag, Drawing, SessionScene, SessionState } from "../api/types";
 import { announce } from "../core/dom";
+import { seconds } from "../core/format";
 import { t } from "../core/texts";
 import { banner } from "../ui/notice";
 import { Clock } from "./clock";
@@ -157,8 +158,7 @@ export class Session extends Clock {
     await this.presses.add("change", async () => {
       sent = between(this.numbers, to, view);
       if (isNone(sent)) return;
-      this.toNewest();
-      this.accept(await api.change(run, sent, then));
+      this.changed(await api.change(run, sent, then));
       this.numbers = tidy(to, view);
       this.altered = (this.latest?.time ?? 0) > 0;
     });
@@ -170,10 +170,23 @@ export class Session extends Clock {
     const run = this.address;
     if (!run) return;
     await this.presses.add("change", async () => {
-      this.toNewest();
-      this.accept(pull ? await api.pull(run, pull) : await api.release(run));
+      this.changed(pull ? await api.pull(run, pull) : await api.release(run));
       this.altered = true;
     });
+  }
+
+  /** The run goes on changed, from its newest moment: who was looking back, and is not at its start now, is told. */
+  private changed(state: SessionState): void {
+    const { reviewing, time } = this;
+    this.toNewest();
+    this.accept(state);
+    if (!reviewing || state.time === 0) return;
+    const newest = seconds(state.time);
+    const said = t("The change acts at the newest moment, {newest}: you were looking back at {time}.", {
+      newest,
+      time: seconds(time),
+    });
+    banner(said, { label: t("Fine"), run: () => banner(null) });
   }
 
   private async readScene(): Promise<void> {

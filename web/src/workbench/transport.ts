@@ -2,7 +2,7 @@
 
 import type { SessionState } from "../api/types";
 import { h, setText } from "../core/dom";
-import { fixedPlain, seconds, typedNumber } from "../core/format";
+import { fixedPlain, seconds, typedIn } from "../core/format";
 import { bind } from "../core/keys";
 import { t } from "../core/texts";
 import type { Session } from "../session/session";
@@ -179,7 +179,7 @@ export class Transport {
     clock.addEventListener("keydown", (event) => {
       if (event.key === "Escape") clock.blur();
       if (event.key !== "Enter") return;
-      const time = typedNumber(clock.value.replace(/\s*s\s*$/, ""));
+      const time = typedIn("s", clock.value);
       const wrong = this.wrongTime(time);
       if (wrong === undefined) {
         clock.blur();

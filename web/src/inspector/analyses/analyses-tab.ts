@@ -7,7 +7,7 @@ import { reducedMotion } from "../../core/prefs";
 import { t } from "../../core/texts";
 import { type Placed, placed, swung, visible } from "../../mechanics/pose";
 import type { Session } from "../../session/session";
-import { problemNotice } from "../../ui/notice";
+import { note, problemNotice } from "../../ui/notice";
 import type { Panel } from "../../ui/panel";
 import {
   type AssemblyResult,
@@ -34,6 +34,8 @@ const ABOUT: Record<ModesAbout, () => string> = {
 
 export class AnalysesTab implements Panel {
   readonly root: HTMLElement;
+  /** What the result that is shown was asked of, and the button that asked. */
+  private asked: { scene: string; label: string; button: HTMLButtonElement } | undefined;
   private readonly result = h("section", {
     class: "stack",
     "aria-live": "polite",
@@ -90,7 +92,10 @@ export class AnalysesTab implements Panel {
       this.back,
       this.result,
     );
-    session.on("scene", () => this.pose(undefined));
+    session.on("scene", () => {
+      this.pose(undefined);
+      this.dropOld();
+    });
   }
 
   refresh(): void {
@@ -116,19 +121,48 @@ export class AnalysesTab implements Panel {
     button.addEventListener("click", () => {
       const scene = this.session.view?.scene;
       if (!scene) return;
+      const show = (...parts: HTMLElement[]): void => {
+        this.result.replaceChildren(...parts);
+        this.asked = { scene: JSON.stringify(scene), label, button };
+      };
       button.disabled = true;
       analyse(scene)
         .then((parts) => {
-          this.result.replaceChildren(h("h3", null, label), ...parts);
+          show(h("h3", null, label), ...parts);
           this.result.scrollIntoView({ block: "start" });
           announce(t("{label}: the result is below.", { label }));
         })
-        .catch((error: unknown) => this.result.replaceChildren(problemNotice(error)))
+        .catch((error: unknown) => show(problemNotice(error)))
         .finally(() => {
           button.disabled = false;
+          // Numbers may have been changed while it was computed.
+          this.dropOld();
         });
     });
     return button;
+  }
+
+  /** Takes a result of other numbers away: they would be read as those of the scene, and its poses do not fit it. */
+  private dropOld(): void {
+    const { asked, session } = this;
+    if (!asked || JSON.stringify(session.view?.scene) === asked.scene) return;
+    this.asked = undefined;
+    this.pose(undefined);
+    this.result.replaceChildren(
+      h("h3", null, asked.label),
+      note(
+        h("p", null, t("The numbers of the scene were changed: the result was of the numbers before.")),
+        h(
+          "div",
+          { class: "notice-actions" },
+          h(
+            "button",
+            { type: "button", class: "button", onclick: () => asked.button.click() },
+            t("Compute anew"),
+          ),
+        ),
+      ),
+    );
   }
 
   /** Shows a pose of the bodies in place of the run; undefined shows the run again. */

@@ -6,8 +6,9 @@ import { fixed, num, sci, seconds } from "../../core/format";
 import { listed, t } from "../../core/texts";
 import { told } from "../../core/told";
 import type { ModeMotion, Placed } from "../../mechanics/pose";
-import { norm } from "../../mechanics/vec";
 import { liveTable } from "../../ui/table";
+import { tidy, values } from "../reactions/reaction-card";
+import { aboutIn } from "../reactions/wording";
 
 export interface AssemblyResult {
   bodies: { body: string; position: Vec3; moved: number; turned: number }[];
@@ -20,6 +21,8 @@ export interface AssemblyResult {
 export interface KinematicsResult {
   states: { time: number; bodies: Placed[]; reactions: { reactions: Reaction[] } }[];
   steps: number;
+  /** The largest error of a position, m. */
+  correction: number;
   passages: { time: number; joints: string[] }[];
   events: { name: string; time: number; stop: boolean }[];
   notes: string[];
@@ -28,6 +31,8 @@ export interface KinematicsResult {
 export interface EquilibriumResult {
   iterations: number;
   residual: number;
+  /** How far the bodies may be from rest, m; null where some motion meets no stiffness. */
+  error: number | null;
   least_stiffness: number;
   /** Null where it is undecided; a note says why. */
   stable: boolean | null;
@@ -120,32 +125,55 @@ export function assemblyView(found: AssemblyResult): HTMLElement[] {
   ];
 }
 
-export function kinematicsView(found: KinematicsResult): HTMLElement[] {
-  const { states } = found;
-  const drivers = (states[0]?.reactions.reactions ?? [])
-    .filter((entry) => entry.driver)
-    .map((entry) => entry.joint);
-  const table = liveTable(
-    t("What each driver must exert, in the world frame"),
-    t("Time"),
-    drivers.flatMap((name) => [
-      ...columns([t("{name}: force", { name })], "N"),
-      ...columns([t("moment")], "N m"),
-    ]),
+/** Along the axes of the world. */
+const COMPONENTS = [...columns(["Fx", "Fy", "Fz"], "N"), ...columns(["Mx", "My", "Mz"], "N m")];
+
+/** Force and moment, component by component, with their signs; ≈ marks what is not unique. */
+export function components({ force, moment }: Pick<Reaction, "force" | "moment">, digits: number): string[] {
+  const all = [...force, ...moment];
+  return all.map((part) => `${part.unique ? "" : "≈ "}${num(tidy(part.value, values(all)), digits)}`);
+}
+
+/** What positions are worth, to so many digits: never to more than the precision of a double. */
+const rightTo = (error: number, digits: number): string => sci(Math.max(error, Number.EPSILON), digits);
+
+export const errorOfMotion = ({ correction }: Pick<KinematicsResult, "correction">): string =>
+  t(
+    "Error: positions right to about {error} m, axes to that part of their length: Newton-Raphson moved none by more.",
+    { error: rightTo(correction, 2) },
   );
-  const size = (parts: { value: number }[]): string => num(norm(parts.map((part) => part.value) as Vec3), 6);
+
+export const errorAtRest = ({ error }: Pick<EquilibriumResult, "error">): string =>
+  error === null
+    ? t("Error: positions are not known along motions that meet no stiffness.")
+    : t("Error: positions right to about {error} m.", { error: rightTo(error, 1) });
+
+/** What a driver must exert, time by time. */
+function driverTable({ joint, on, about }: Reaction, states: KinematicsResult["states"]): HTMLElement {
+  const caption = t("What {joint} must exert on {on}, moments about {about}, in the world frame", {
+    joint,
+    on,
+    about: aboutIn(about),
+  });
+  const table = liveTable(caption, t("Time"), COMPONENTS);
   const stride = Math.max(1, Math.ceil(states.length / MAX_ROWS));
   table.update(
     states
       .filter((_, k) => k % stride === 0)
-      .map((state) => ({
-        head: seconds(state.time),
-        cells: drivers.flatMap((name) => {
-          const entry = state.reactions.reactions.find((one) => one.joint === name);
-          return entry ? [size(entry.force), size(entry.moment)] : ["–", "–"];
-        }),
-      })),
+      .map((state) => {
+        const entry = state.reactions.reactions.find((one) => one.joint === joint);
+        return {
+          head: seconds(state.time),
+          cells: entry ? components(entry, 6) : COMPONENTS.map(() => "–"),
+        };
+      }),
   );
+  return table.root;
+}
+
+export function kinematicsView(found: KinematicsResult): HTMLElement[] {
+  const { states } = found;
+  const drivers = (states[0]?.reactions.reactions ?? []).filter((entry) => entry.driver);
   return [
     h(
       "p",
@@ -155,6 +183,7 @@ export function kinematicsView(found: KinematicsResult): HTMLElement[] {
         steps: t("{n} step | {n} steps", { n: found.steps }),
       }),
     ),
+    h("p", null, errorOfMotion(found)),
     ...found.passages.map((passed) =>
       h(
         "p",
@@ -175,7 +204,7 @@ export function kinematicsView(found: KinematicsResult): HTMLElement[] {
       ),
     ),
     ...found.notes.map((note) => h("p", null, told(note))),
-    table.root,
+    ...drivers.map((driver) => driverTable(driver, states)),
   ];
 }
 
@@ -188,17 +217,9 @@ export function equilibriumView(found: EquilibriumResult, names: string[]): HTML
       cells: body.position.map((part) => fixed(part, 6)),
     })),
   );
-  const forces = liveTable(t("Reactions at rest, world frame"), t("Joint"), [
-    ...columns(["Fx", "Fy", "Fz"], "N"),
-    ...columns(["Mx", "My", "Mz"], "N m"),
-  ]);
+  const forces = liveTable(t("Reactions at rest, world frame"), t("Joint"), COMPONENTS);
   forces.update(
-    found.reactions.reactions.map((entry) => ({
-      head: entry.joint,
-      cells: [...entry.force, ...entry.moment].map(
-        (part) => `${part.unique ? "" : "≈ "}${num(part.value, 5)}`,
-      ),
-    })),
+    found.reactions.reactions.map((entry) => ({ head: entry.joint, cells: components(entry, 5) })),
   );
   return [
     figures([
@@ -207,6 +228,7 @@ export function equilibriumView(found: EquilibriumResult, names: string[]): HTML
       [t("Left over"), `${sci(found.residual)} N`],
       [t("Steps"), String(found.iterations)],
     ]),
+    h("p", null, errorAtRest(found)),
     ...found.notes.map((note) => h("p", { class: "help" }, told(note))),
     places.root,
     forces.root,

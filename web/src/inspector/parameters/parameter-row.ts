@@ -2,7 +2,7 @@
 
 import type { SessionParameter } from "../../api/types";
 import { h, setText } from "../../core/dom";
-import { num, typedNumber } from "../../core/format";
+import { num, typedIn } from "../../core/format";
 import { t } from "../../core/texts";
 
 /** Steps of a slider whose author chose none. */
@@ -111,8 +111,8 @@ export class ParameterRow {
   }
 
   private read(): void {
-    const { low, high } = this.parameter;
-    const value = typedNumber(this.field.value);
+    const { low, high, unit } = this.parameter;
+    const value = typedIn(unit ?? "", this.field.value);
     const good = value >= low && value <= high;
     if (good) this.field.removeAttribute("aria-invalid");
     else this.field.setAttribute("aria-invalid", "true");
@@ -120,7 +120,10 @@ export class ParameterRow {
       this.wrong,
       good ? "" : t("Write a number from {low} to {high}.", { low: num(low), high: num(high) }),
     );
-    if (good) this.set(value);
+    if (!good) return;
+    // The unit stands behind the field.
+    this.field.value = plain(value);
+    this.set(value);
   }
 }
 

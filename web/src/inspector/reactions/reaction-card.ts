@@ -124,13 +124,13 @@ function multiplierList({ joint, rows }: JointReaction): HTMLElement {
   );
 }
 
-const values = (parts: { value: number }[]): number[] => parts.map((part) => part.value);
+export const values = (parts: { value: number }[]): number[] => parts.map((part) => part.value);
 
 /** Values below this part of the largest beside them are rounding: a few times the precision of a double. */
 const ROUNDING = 1e-14;
 
 /** Zero where a value is only rounding beside the other ones. */
-function tidy(value: number, beside: number[]): number {
+export function tidy(value: number, beside: number[]): number {
   const largest = Math.max(...beside.map(Math.abs));
   return Math.abs(value) < ROUNDING * largest ? 0 : value;
 }

@@ -16,6 +16,11 @@ export const classroom = {
   late: "verspätet",
   "Then, until": "Danach, bis",
   "counts, %": "zählt, %",
+  "Write a whole number, {low} or more.": "Schreibe eine ganze Zahl, {low} oder mehr.",
+  "{word}: a decimal comma, or two numbers? Write a point in the one, a blank after the comma between the others.":
+    "{word}: ein Dezimalkomma oder zwei Zahlen? Schreibe in der einen einen Punkt, zwischen den anderen nach dem Komma ein Leerzeichen.",
+  "{word} is no share: write numbers from 0 to 100, such as 100, 87.5, 80.":
+    "{word} ist kein Anteil: Schreibe Zahlen von 0 bis 100, etwa 100, 87.5, 80.",
   "Attempts (empty: any number)": "Versuche (leer: beliebig viele)",
   "What the attempts count, %": "Was die Versuche zählen, %",
   "Minutes between attempts": "Minuten zwischen Versuchen",

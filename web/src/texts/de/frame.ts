@@ -114,6 +114,8 @@ export const frame = {
   "Back at the start, time 0.": "Wieder am Anfang, Zeit 0.",
   "More steps were asked for than can be done: the last one was left out.":
     "Mehr Schritte wurden verlangt, als getan werden können: Der letzte wurde ausgelassen.",
+  "The change acts at the newest moment, {newest}: you were looking back at {time}.":
+    "Die Änderung wirkt im neuesten Moment, {newest}: Du hast auf {time} zurückgeblickt.",
   "The simulation was gone from the server and was started anew, at the time that was reached.":
     "Die Simulation gab es auf dem Server nicht mehr; sie wurde neu begonnen, zur erreichten Zeit.",
   "The simulation was gone from the server and was started anew, at time {time}.":

@@ -23,6 +23,9 @@ export const inspector = {
   "Where the mechanism rests near its start, and whether it stays there.":
     "Wo der Mechanismus in der Nähe seines Starts ruht und ob er dort bleibt.",
   "Frequencies and shapes of the small motions:": "Frequenzen und Formen der kleinen Bewegungen:",
+  "The numbers of the scene were changed: the result was of the numbers before.":
+    "Die Zahlen der Szene wurden geändert: das Ergebnis galt für die Zahlen davor.",
+  "Compute anew": "Neu berechnen",
   "{label}: the result is below.": "{label}: Das Ergebnis steht unten.",
   "Redundant rows:": "Überzählige Zeilen:",
   "No row is redundant.": "Keine Zeile ist überzählig.",
@@ -32,9 +35,13 @@ export const inspector = {
   Steps: "Schritte",
   "Open at the start": "Offen am Anfang",
   "Open now": "Jetzt noch offen",
-  "What each driver must exert, in the world frame": "Was jeder Antrieb aufbringen muss, im Weltsystem",
-  "{name}: force": "{name}: Kraft",
-  moment: "Moment",
+  "What {joint} must exert on {on}, moments about {about}, in the world frame":
+    "Was {joint} auf {on} ausüben muss, Momente um {about}, im Weltsystem",
+  "Error: positions right to about {error} m, axes to that part of their length: Newton-Raphson moved none by more.":
+    "Fehler: Lagen auf etwa {error} m richtig, Achsen auf diesen Teil ihrer Länge: Newton-Raphson hat keine um mehr verschoben.",
+  "Error: positions are not known along motions that meet no stiffness.":
+    "Fehler: Lagen sind entlang von Bewegungen, denen keine Steifigkeit begegnet, nicht bekannt.",
+  "Error: positions right to about {error} m.": "Fehler: Lagen auf etwa {error} m richtig.",
   "{positions}, {steps} between them.": "{positions}, dazwischen {steps}.",
   "{n} position | {n} positions": "{n} Lage | {n} Lagen",
   "{n} step | {n} steps": "{n} Schritt | {n} Schritte",

@@ -3,6 +3,9 @@
 export const learning = {
   "Scene, JSON": "Szene, JSON",
   "Line {line} is not JSON yet": "Zeile {line} ist noch kein JSON",
+  "Line {line} has a key that was there before": "Zeile {line} hat einen Schlüssel, der schon da war",
+  "The key {key} is written twice: it stands above already.":
+    "Der Schlüssel {key} steht zweimal da: Er kommt schon weiter oben vor.",
   "The scene ended before this.": "Die Szene war vor dieser Stelle zu Ende.",
   "{word} is not a number: write one like -0.5, 12 or 1e-3.":
     "{word} ist keine Zahl: schreibe sie wie -0.5, 12 oder 1e-3.",
