@@ -68,6 +68,12 @@ impl EventFunction {
         }
     }
 
+    /// Rounding of the quantity in a mechanism of such a length, m: of the numbers that cancel where it is at its value.
+    pub fn rounding(&self, length: f64) -> f64 {
+        let size = if matches!(self.measure, EventMeasure::Angle(_)) { 1.0 } else { length };
+        f64::EPSILON * (self.value.abs() + size)
+    }
+
     /// Whether it is to be passed in this direction.
     pub fn wants(&self, rising: bool) -> bool {
         match self.passing {

@@ -62,7 +62,8 @@ impl Simulation {
         }));
     }
 
-    /// Estimates how far the times of events in the last step up to time t are off: by what quantities are off there, over their rates.
+    /// Estimates how far the times of events in the last step up to time t are off: by what quantities are off there, at least by rounding, over
+    /// their rates.
     pub(super) fn judge_events(&mut self, t: f64) {
         let Self { mechanism, integrator, companion, occurrences, judged_events, .. } = self;
         while let Some(event) = occurrences.get_mut(*judged_events).filter(|event| event.time <= t) {
@@ -90,7 +91,9 @@ impl Simulation {
             };
             let here = quantity(&y);
             y.iter_mut().zip(&error).for_each(|(y, error)| *y -= error);
-            let off = (here - quantity(&y)).abs() / event.rate.abs();
+            let there = quantity(&y);
+            let rounding = function.rounding(mechanism.system.length);
+            let off = (here - there).abs().max(rounding) / event.rate.abs();
             event.error = Some(off.max(f64::EPSILON * time)).filter(|off| off.is_finite());
         }
     }

@@ -6,10 +6,18 @@ use triad_scene::expression::{Expression, ExpressionError, Function, Node};
 
 /// Moments of a run at which a formula is tried before it starts.
 pub const TRIED: u32 = 1_000;
-/// Part of its largest value within which a formula does not change but for rounding, and so many of those moments for which it has
-/// to stay so.
+/// So many of these moments lie between two series from which values are foretold, and the reach of each; then the same from fewer
+/// moments and farther.
+const LOOKS: [(u32, u32); 2] = [(10, 100), (100, TRIED)];
+/// Rounding of a value, and of one that is foretold, as parts of the largest value and of the sum of all terms; and that of a moment.
 const QUIET: f64 = 1e-15;
-const LONG: u32 = 10;
+const FORETOLD: f64 = 1e-12;
+const ROUNDED: f64 = 4.0 * f64::EPSILON;
+/// How many terms foretell: as many as the shortest series of a step has, and all. The last ones have to be no more than rounding where
+/// they are to foretell anything: some may vanish by chance.
+const FORETELL: [(usize, usize); 2] = [(9, 3), (MAX_TERMS, 6)];
+/// Degree up to which polynomials in t and in sines do nothing that their series about any moment do not tell.
+const GENTLE: f64 = 8.0;
 /// Halvings that find the end of a formula's domain between two of them to the last digit.
 const HALVINGS: u32 = 60;
 /// Greatest whole exponent that is multiplied out: then the base may be zero; and that above which it is by squares.
@@ -110,29 +118,94 @@ impl TimeFormula {
 }
 
 impl TimeFormula {
-    /// Finds where it begins to change after it did not for a hundredth of the time from 0 to `end`, s, as far as a thousand moments
-    /// tell: a series before a pulse knows nothing of it, and steps would pass it.
+    /// Finds where it begins to do what its series before do not foretell, although their terms have come to an end, as far as a thousand
+    /// moments from 0 to `end`, s, tell: a pulse after a rest, or on a straight line or a sine. Steps would pass it.
     pub fn find_wakes(&mut self, end: f64) {
         self.wakes.clear();
+        if degree(&self.root, true).is_some_and(|degree| degree <= GENTLE) {
+            return;
+        }
         let moment = |k: u32| end * f64::from(k) / f64::from(TRIED);
         let values: Vec<f64> = (0..=TRIED).map(|k| expand(&self.root, moment(k), 1)[0]).collect();
-        let rounding = QUIET * largest_size(&values);
-        let (mut low, mut high, mut quiet) = (f64::INFINITY, f64::NEG_INFINITY, 0);
-        for (k, value) in (0..).zip(values) {
-            (low, high) = (low.min(value), high.max(value));
-            if high - low > rounding {
-                if quiet > LONG {
-                    self.wakes.push(moment(k - 1));
+        let change = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
+        let rounding = QUIET * largest_size(&values) + ROUNDED * f64::from(TRIED) * change;
+        let mut found = Vec::new();
+        for (apart, reach) in LOOKS {
+            for from in (0..TRIED).step_by(apart as usize) {
+                let series = expand(&self.root, moment(from), MAX_TERMS);
+                for (terms, last) in FORETELL {
+                    let ahead = (from + 1..).zip(&values[from as usize + 1..]).take(reach as usize);
+                    let look = |(k, value): (u32, &f64)| {
+                        (k, foretold(&series[..terms], last, moment(k) - moment(from), *value, rounding))
+                    };
+                    let mut told = ahead.map(look).take_while(|(_, look)| *look != Look::Unknown);
+                    found.extend(told.find(|(_, look)| *look == Look::Otherwise).map(|(k, _)| k - 1));
                 }
-                (low, high, quiet) = (value, value, 0);
             }
-            quiet += 1;
         }
+        found.sort_unstable();
+        found.dedup_by(|later, before| *later <= *before + LOOKS[0].0);
+        self.wakes.extend(found.into_iter().map(moment));
     }
 
     /// The first of these moments after t, s, or infinity.
     pub fn next_wake(&self, t: f64) -> f64 {
         self.wakes.iter().copied().find(|wake| *wake > t).unwrap_or(f64::INFINITY)
+    }
+}
+
+/// What a value says of a series that foretells it with these terms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Look {
+    /// It is what was foretold.
+    Foretold,
+    /// It is something else, although the terms have come to an end.
+    Otherwise,
+    /// They have not.
+    Unknown,
+}
+
+fn foretold(series: &[f64], end: usize, tau: f64, value: f64, rounding: f64) -> Look {
+    let (mut sum, mut sizes, mut last, mut power) = (0.0, 0.0, 0.0f64, 1.0);
+    for (n, c) in series.iter().enumerate() {
+        let term = c * power;
+        sum += term;
+        sizes += term.abs();
+        if n + end >= series.len() {
+            last = last.max(term.abs());
+        }
+        power *= tau;
+    }
+    let small = rounding + FORETOLD * sizes;
+    // Also of what is no number nothing is known.
+    if !(last <= small && sizes.is_finite()) {
+        Look::Unknown
+    } else if (sum - value).abs() > small {
+        Look::Otherwise
+    } else {
+        Look::Foretold
+    }
+}
+
+/// The degree of a polynomial in t and, where they are allowed, in sines of such. What one of low degree does anywhere, its series tell
+/// everywhere.
+fn degree(node: &Node, sines: bool) -> Option<f64> {
+    if !node.uses(0) {
+        return Some(0.0);
+    }
+    match node {
+        Node::Symbol(_) => Some(1.0),
+        Node::Number(_) => Some(0.0),
+        Node::Negative(a) => degree(a, sines),
+        Node::Call(Function::Sin | Function::Cos, a) if sines => degree(a, false).map(|_| 1.0),
+        Node::Call(..) => None,
+        Node::Binary('^', a, b) => match **b {
+            Node::Number(n) if n >= 0.0 && n.fract() == 0.0 => degree(a, sines).map(|of| n * of),
+            _ => None,
+        },
+        Node::Binary('/', a, b) => degree(a, sines).filter(|_| !b.uses(0)),
+        Node::Binary('*', a, b) => Some(degree(a, sines)? + degree(b, sines)?),
+        Node::Binary(_, a, b) => Some(degree(a, sines)?.max(degree(b, sines)?)),
     }
 }
 
