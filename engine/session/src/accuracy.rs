@@ -4,8 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use triad_engine::run::{ErrorEstimate, Simulation, Summary};
 
-/// Estimated errors of a state, each the largest over all bodies or joints: what the run has collected since its start, or since
-/// its numbers were changed.
+/// Estimated errors of a state, each the largest over all bodies or joints: what the run has collected since its start.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Accuracy {
     /// Of centres of mass, m.
@@ -104,19 +103,29 @@ impl Known {
     }
 }
 
-/// Since when a run counts what it tells of itself.
+/// What a run knows of itself beside what its simulation knows.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Since {
     /// When it went on with other numbers last, s.
     changed: Option<f64>,
-    /// What was known when it was taken up again: its simulation counts from there and knows nothing of it.
+    /// What was known when it was taken up again, or its numbers were changed: its simulation counts from there and knows nothing of it.
     taken_up: Option<Known>,
 }
 
 impl Since {
-    /// Since the numbers of the run were changed at a time, s.
-    pub fn change(time: f64) -> Self {
-        Self { changed: Some(time).filter(|time| *time > 0.0), taken_up: None }
+    /// The same where another simulation goes on with other numbers from the state of this one: what was not known of its errors is not
+    /// known then either.
+    pub fn change(&self, simulation: &Simulation, forces: bool) -> Self {
+        let Self { taken_up: Some(mut known), .. } = self.taken_up(simulation, forces) else {
+            return Self::default();
+        };
+        if known.time <= 0.0 {
+            return Self::default();
+        }
+        // What the simulation has said of itself and of its energy ends with it.
+        known.energy_drift = Some(0.0);
+        known.notes = self.taken_up.as_ref().map_or_else(Vec::new, |before| before.notes.clone());
+        Self { changed: Some(known.time), taken_up: Some(known) }
     }
 
     /// The same for the run that takes up this one where it stands.
@@ -152,17 +161,14 @@ impl Since {
         if known.accuracy.is_none() {
             return Vec::new();
         }
-        let changed = self.changed.map(|time| {
+        let told = |what: &str, time: f64| {
             format!(
-                "estimated errors count from t = {time:.3} s on, when the numbers of the run were changed"
+                "{what} at t = {time:.3} s: estimated errors are those of then with what has come since; how those of then grow is not known"
             )
-        });
-        let taken_up = self.taken_up.as_ref().filter(|before| before.time > 0.0).map(|Known { time, .. }| {
-            format!(
-                "the run was taken up again at t = {time:.3} s: estimated errors are those of then with what has come since; how those \
-                 of then grow is not known"
-            )
-        });
-        changed.into_iter().chain(taken_up).collect()
+        };
+        let changed = self.changed.map(|time| told("the numbers of the run were changed", time));
+        let taken_up = self.taken_up.as_ref().map(|before| before.time);
+        let taken_up = taken_up.filter(|time| *time > 0.0 && self.changed != Some(*time));
+        changed.into_iter().chain(taken_up.map(|time| told("the run was taken up again", time))).collect()
     }
 }

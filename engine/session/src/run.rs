@@ -223,8 +223,8 @@ impl Run {
             }
             AfterChange::Continue => {
                 self.samples.follow(description);
+                self.since = self.since.change(&before, tells_forces(&before));
                 self.history.start_segment(before);
-                self.since = Since::change(self.simulation.time());
             }
         }
         self.run_on(now);
@@ -238,8 +238,8 @@ impl Run {
     pub fn drag(&mut self, drag: Option<Drag>, now: f64) -> Result<(), Refusal> {
         let mut next = assembled(&self.scene, drag.as_ref())?;
         self.transfer_state(&mut next)?;
+        self.since = self.since.change(&self.simulation, tells_forces(&self.simulation));
         self.history.start_segment(std::mem::replace(&mut self.simulation, next));
-        self.since = Since::change(self.simulation.time());
         self.drag = drag;
         self.run_on(now);
         Ok(())

@@ -82,11 +82,11 @@ fn a_time_that_the_run_has_not_reached_has_no_answer_and_each_answer_tells_its_t
 }
 
 #[test]
-fn errors_that_begin_anew_with_other_numbers_say_so() {
+fn errors_go_on_with_other_numbers_and_say_so() {
     let mut run = pendulum();
     let noted = |run: &Run| {
         let notes = run.state(Streamed::default(), String::new).notes;
-        notes.iter().any(|note| note.starts_with("estimated errors count from t = 0.5"))
+        notes.iter().any(|note| note.starts_with("the numbers of the run were changed at t = 0.5"))
     };
     while let Ok(true) = run.advance(0.5) {}
     assert!(!noted(&run));
@@ -150,7 +150,43 @@ fn a_run_that_is_taken_up_again_keeps_its_errors_its_drag_and_what_was_said() {
     assert!(position(&twice) >= then && added(&twice.notes).len() == 1, "{:?}", twice.notes);
     again.reset();
     let anew = told(&again).notes;
-    assert!(!anew.iter().any(|note| note.contains("taken up") || note.contains("count from")), "{anew:?}");
+    assert!(!anew.iter().any(|note| note.contains("taken up") || note.contains("were changed")), "{anew:?}");
+}
+
+#[test]
+fn what_is_not_known_of_errors_is_not_known_with_other_numbers_either() {
+    let mut scene = catalogue::scene("spatial-double-pendulum").expect("a scene").duration(20.0);
+    scene.simulation.tolerance = 1e-4;
+    let source = SceneSource::Scene("it".into());
+    let mut run = Run::start("one".into(), scene, &SceneChange::default(), source, 1 << 20).expect("runs");
+    let heavier = |run: &mut Run, g: f64| {
+        change(run, serde_json::json!({ "places": { "/gravity/2": g }, "then": "continue" }))
+            .expect("goes on");
+    };
+    while let Ok(true) = run.advance(1.0) {}
+    let before = told(&run).accuracy.expect("is known");
+    heavier(&mut run, -9.0);
+    let after = told(&run).accuracy.expect("is known");
+    assert!(before.position > 1e-9 && after.position >= before.position, "{before:?} {after:?}");
+    while let Ok(true) = run.advance(20.0) {}
+    let lost = told(&run).error_unknown_from;
+    assert!(lost.is_some_and(|time| time < 20.0), "{lost:?}");
+    run.reset();
+    while let Ok(true) = run.advance(19.9) {}
+    assert_eq!(told(&run).accuracy, None);
+    // A drag is a change a frame: what was said does not pile up.
+    for k in 0..20 {
+        let to = [0.1 * f64::from(k), 0.0, 0.0];
+        let drag = serde_json::json!({ "body": told(&run).bodies[0].name, "to": to, "stiffness": 5.0 });
+        run.drag(serde_json::from_value(drag).expect("a drag"), 0.0).expect("goes on");
+        while let Ok(true) = run.advance(19.9 + 1e-3 * f64::from(k)) {}
+    }
+    let state = told(&run);
+    assert_eq!(state.accuracy, None);
+    assert!(state.error_unknown_from.is_some_and(|time| time < 19.9), "{:?}", state.error_unknown_from);
+    assert!(state.notes.len() < 5, "{:?}", state.notes);
+    run.reset();
+    assert!(told(&run).accuracy.is_some());
 }
 
 #[test]
