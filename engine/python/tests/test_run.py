@@ -147,3 +147,16 @@ def test_tables_become_data_frames():
     r = triad.run("simple-pendulum", until=0.1, every=0.05)
     frame = r.to_pandas()
     assert list(frame.columns) == r.columns and np.array_equal(frame["energy"].to_numpy(), r.energy)
+
+
+@pytest.mark.parametrize("point", ["joint-point", "origin", "center-of-mass", [10.0, 10.0, 10.0]])
+@pytest.mark.parametrize("frame", ["world", "body"])
+@pytest.mark.parametrize("side", ["i", "j"])
+def test_errors_of_reactions_are_those_of_the_point_and_the_axes_that_were_asked_for(point, frame, side):
+    rough, fine = (triad.run("spatial-double-pendulum", until=1.0, every=0.1, tolerance=tolerance) for tolerance in (1e-5, 1e-13))
+    for joint in [joint["name"] for joint in rough.scene["joints"]]:
+        told, right = (r.reactions(joint, point=point, frame=frame, side=side) for r in (rough, fine))
+        assert right.unique
+        for name in ("force", "moment"):
+            off = np.linalg.norm(getattr(told, name) - getattr(right, name), axis=1)[1:]
+            assert (off <= 3 * getattr(told, f"{name}_error")[1:] + 1e-12).all(), (joint, name, off)

@@ -173,6 +173,9 @@ def test_analyses_answer_as_the_command_line_does(program):
     told = json.loads(program("kinematics", "crank-rocker", "--in", "joint", "--json"))
     told.pop("seconds")
     assert triad.kinematics("crank-rocker", frame="joint") == told
+    told = json.loads(program("kinematics", "crank-rocker", "--about", "origin", "--json"))
+    told.pop("seconds")
+    assert triad.kinematics("crank-rocker", point="origin") == told == triad.kinematics("crank-rocker", point=[0, 0, 0])
     assert triad.modes("simple-pendulum")["modes"][0]["frequency"] == pytest.approx(np.sqrt(9.81) / (2 * np.pi))
     assert triad.assemble(scene, keep=triad.run(scene, until=0.01).bodies[:1])["left"] < 1e-9
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from typing import Any, Literal, Union
 
 from . import _native
+from ._conventions import Frame, Point, Side, convention
 from ._scene import Scene, named, words
 
 
@@ -51,12 +52,12 @@ def assemble(of: Scene, *, keep: Union[str, Iterable[str]] = ()) -> dict[str, An
 def kinematics(
     of: Scene,
     *,
-    side: Literal["i", "j"] = "j",
-    point: Literal["joint-point", "center-of-mass"] = "joint-point",
-    frame: Literal["world", "joint", "body"] = "world",
+    side: Side = "j",
+    point: Point = "joint-point",
+    frame: Frame = "world",
 ) -> dict[str, Any]:
     """The motion that drivers prescribe, and the forces that it takes: as ``triad kinematics --json``."""
-    return _analysis("kinematics", of, json.dumps({"on": side, "about": point, "expressed_in": frame}))
+    return _analysis("kinematics", of, convention(side, point, frame))
 
 
 def _analysis(word: str, of: Scene, at: str = "", keep: Union[str, Iterable[str]] = ()) -> dict[str, Any]:

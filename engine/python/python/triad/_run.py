@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._errors import finite, place, refusal, word
+from ._conventions import Frame, Point, Side, convention
+from ._errors import finite, place
 from ._scene import Scene, as_json, named, words
 
 if TYPE_CHECKING:
@@ -21,9 +22,6 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Truths = NDArray[np.bool_]
 Progress = Callable[[float, float], object]
-Side = Literal["i", "j"]
-Point = Union[Literal["joint-point", "center-of-mass", "origin"], Sequence[float]]
-Frame = Literal["world", "joint", "body"]
 
 
 def run(
@@ -155,9 +153,10 @@ class Reactions:
     axes: Floats
     """The axes in the world: (n, 3, 3), one in each row."""
     force_error: Floats
-    """Estimated error, N: the largest of all joints; nan where it is not known, or reactions are not among the outputs."""
+    """Estimated error, N: the largest of all joints, with that of the axes; nan where it is not known, or reactions are not among the
+    outputs."""
     moment_error: Floats
-    """The same of moments, N m."""
+    """The same of moments, N m, with that of the point."""
     redundancies: list[dict[str, Any]]
     """Joints that share dependent rows, and what to relax, at the first output."""
 
@@ -264,14 +263,19 @@ class Run:
         point  "joint-point", "center-of-mass" of that body, "origin", or three numbers in the world, m
         frame  "world", "joint" (x along its axis), or "body" (the one that it acts on)
         """
-        convention = json.dumps(
-            {
-                "on": word("side", side, ("j", "i")),
-                "about": _about(point),
-                "expressed_in": word("frame", frame, ("world", "joint", "body")),
-            }
-        )
-        found = self._motion.reactions(joint, convention)
+        found = self._motion.reactions(joint, convention(side, point, frame))
+        force_error, moment_error = self._reaction_errors.T
+        size = np.linalg.norm(found.force, axis=1)
+        if not isinstance(point, str) or point != "joint-point":
+            # What is off by how much where: the point by the bodies' errors, the force over the way from the joint to it.
+            at_joint = self._motion.reactions(joint, convention(side, "joint-point", frame)).point_at
+            away = np.linalg.norm(found.point_at - at_joint, axis=1)
+            off = 2.0 * self.errors.position + away * self.errors.turn
+            moment_error = moment_error + away * force_error + size * off
+        if frame != "world":
+            # The axes turn with the bodies.
+            moment_error = moment_error + self.errors.turn * np.linalg.norm(found.moment, axis=1)
+            force_error = force_error + self.errors.turn * size
         return Reactions(
             joint=joint,
             on=found.on,
@@ -285,8 +289,8 @@ class Run:
             moment_unique=found.moment_unique,
             point_at=found.point_at,
             axes=found.axes,
-            force_error=self._reaction_errors[:, 0],
-            moment_error=self._reaction_errors[:, 1],
+            force_error=force_error,
+            moment_error=moment_error,
             redundancies=json.loads(found.redundancies),
         )
 
@@ -324,18 +328,3 @@ class Run:
 
     def _repr_svg_(self) -> str:
         return self.svg()
-
-
-def _about(point: Point) -> Any:
-    """About which point moments are taken, as the native part is told."""
-    words_known = ("joint-point", "center-of-mass", "origin")
-    if isinstance(point, str):
-        known = word("point", point, (*words_known, "three numbers in the world"))
-        return {"world-point": [0.0, 0.0, 0.0]} if known == "origin" else known
-    try:
-        at = [float(x) for x in point]
-    except (TypeError, ValueError):
-        at = []
-    if len(at) != 3 or not np.isfinite(at).all():
-        raise refusal("unknown-point", f"{point!r} is no point", f"give {', '.join(words_known)} or three numbers in the world, m")
-    return {"world-point": at}
