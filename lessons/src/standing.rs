@@ -44,7 +44,11 @@ fn of_question(question: &Question, opens: OpensFile, attempts: &[Attempt]) -> Q
         }
         found.attempts = tried.len();
         found.left = most.map(|most| most.saturating_sub(tried.len()));
-        found.open = opens.right && given.verdict == Mark::Right || found.left == Some(0);
+        // What was told stays told, and what was not was not, whatever is set since.
+        found.open = given.standing.map_or_else(
+            || opens.right && given.verdict == Mark::Right || found.left == Some(0),
+            |then| then.open,
+        );
     }
     found
 }
@@ -194,6 +198,22 @@ mod tests {
         assert_eq!(student.pull("1.00").earned, 2.0);
         let mut never = Student::new(OpensFile::default());
         assert_eq!(never.pull("39.24").reference_html, None);
+    }
+
+    /// A teacher sets otherwise when answers open.
+    #[test]
+    fn what_was_told_then_decides_whatever_is_set_since() {
+        let told = |student: &mut Student| {
+            ["19.62", "9.81", "4.00"].map(|wrong| student.pull(wrong).reference_html.is_some())
+        };
+        let mut honest = Student::new(OpensFile::default());
+        assert_eq!(told(&mut honest), [false; 3]);
+        honest.lesson.opens = THREE;
+        assert_eq!(honest.pull("39.24").earned, 2.0, "nothing was told");
+        let mut knows = Student::new(THREE);
+        assert_eq!(told(&mut knows), [false, false, true]);
+        knows.lesson.opens = OpensFile::default();
+        assert_eq!(knows.pull("39.24").earned, 0.0, "it was told");
     }
 
     #[test]

@@ -20,8 +20,8 @@ pub struct Variants {
     pub known: Known,
 }
 
-/// Slug and hash of a lesson, the hash of the version that deals, and the seed.
-type Key = (String, String, String, String);
+/// Slug and hash of a lesson, the hash of the version that deals, the seed, and whether verdicts are held back.
+type Key = (String, String, String, String, bool);
 
 #[derive(Debug, Default)]
 struct Kept {
@@ -40,8 +40,8 @@ impl Variants {
             return Ok(Arc::new(lesson.for_nobody()));
         }
         // A lesson that was edited since has another hash.
-        let key =
-            (lesson.slug.clone(), lesson.hash.clone(), lesson.dealer_hash().to_owned(), seed.to_owned());
+        let (slug, hash, dealer) = (lesson.slug.clone(), lesson.hash.clone(), lesson.dealer_hash());
+        let key = (slug, hash, dealer.to_owned(), seed.to_owned(), lesson.held);
         let kept = self.lock().lessons.get(&key).cloned();
         if let Some(lesson) = kept {
             return Ok(lesson);

@@ -190,6 +190,7 @@ fn a_gradebook_is_copied_while_it_is_used_and_brought_back_moved_and_thinned() {
     let erased = |one: &Value| one["name"].as_str().unwrap().starts_with("Erased");
     assert_eq!(grades(&moved).1["students"].as_array().unwrap().iter().filter(|one| erased(one)).count(), 1);
     assert_eq!(run_json(&["grades", "--check", "--database", &moved]), (0, json!([])));
+    assert_eq!(run_json(&["regrade", "--check", "--database", &moved]).0, 0);
     server.stop();
 }
 

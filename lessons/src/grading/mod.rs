@@ -91,14 +91,7 @@ pub fn grade_while(
     wanted: &Wanted,
 ) -> Result<Verdict, GradeError> {
     let mut judgements = judge_while(lesson, submission, known, wanted)?;
-    if judgements.iter().any(|judgement| judgement.mark == Mark::Invalid) {
-        // Nobody tries answers one by one beside a field that cannot be read.
-        for judgement in
-            judgements.iter_mut().filter(|j| matches!(j.mark, Mark::Right | Mark::Wrong | Mark::Kept))
-        {
-            *judgement = Judgement::waiting();
-        }
-    }
+    hide(lesson, submission, &mut judgements);
     let questions: Vec<QuestionVerdict> =
         lesson.exercise.questions.iter().zip(judgements).map(|(q, j)| sent(q, j)).collect();
     let gradable = questions.iter().all(|q| q.verdict != Mark::Invalid);
@@ -119,6 +112,26 @@ pub fn grade_while(
     };
     verdict.sum(lesson.exercise.pass_mark);
     Ok(verdict)
+}
+
+/// Takes out of what is no attempt all that tells what is right: nobody tries answers one by one beside a field that cannot be
+/// read, nor beside a number that needs more digits.
+fn hide(lesson: &Lesson, submission: &Submission, judgements: &mut [Judgement]) {
+    if judgements.iter().all(|judgement| judgement.mark != Mark::Invalid) {
+        return;
+    }
+    let reads = judgements.iter().all(|j| j.mark != Mark::Invalid || j.asks_for_digits());
+    let told = lesson.exercise.questions.iter().zip(judgements);
+    for (question, judgement) in told.filter(|(_, judgement)| judgement.mark != Mark::Blank) {
+        if judgement.mark == Mark::Invalid && (reads || !judgement.asks_for_digits()) {
+            continue;
+        }
+        let short = match (&question.body, submission.answers.get(&question.id)) {
+            (QuestionBody::Quantity(body), Some(answer)) if reads => quantity::more_digits(body, answer),
+            _ => None,
+        };
+        *judgement = short.map_or_else(Judgement::waiting, |why| Judgement::invalid(why.into()));
+    }
 }
 
 /// Whether a submission answers only what the lesson asks: it can be graded.
@@ -196,7 +209,7 @@ fn judge_answer(
 ) -> Judgement {
     let note = &question.right;
     let judged = match &question.body {
-        QuestionBody::Quantity(body) => quantity::judge(body, note, answer).map_err(Into::into),
+        QuestionBody::Quantity(body) => quantity::judge(body, note, answer, lesson.held).map_err(Into::into),
         QuestionBody::Choice { options, right } => closed::choice(options, right, answer).map_err(Into::into),
         QuestionBody::Formula(body) => formula::judge(body, &question.id, note, answer).map_err(Into::into),
         QuestionBody::Diagram(task) => diagram::judge(task, note, answer).map_err(Into::into),

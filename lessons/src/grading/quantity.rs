@@ -16,11 +16,13 @@ const FAR: f64 = 0.1;
 /// Powers of ten that a wrong prefix makes.
 const PREFIX_POWERS: [i32; 8] = [-6, -3, -2, -1, 1, 2, 3, 6];
 
-/// Judges an answer; `note` is said when it is right.
+/// Judges an answer; `note` is said when it is right. Where the verdict is `held` back too few digits are a wrong answer: to be
+/// asked for more would tell that these are right.
 pub(crate) fn judge(
     question: &QuantityQuestion,
     note: &str,
     answer: &Answer,
+    held: bool,
 ) -> Result<Judgement, InvalidQuantity> {
     let reading = reading::read(question, answer)?;
     // With a wrong unit the bare magnitude is still compared, in the question's own unit.
@@ -37,7 +39,11 @@ pub(crate) fn judge(
     } else if let Some((id, finding)) = misconception(question, values) {
         (Some(id), finding)
     } else if is_too_coarse(question, &reading) {
-        return Err(InvalidQuantity::InsufficientPrecision { digits: question.tolerance.digits() });
+        let digits = question.tolerance.digits();
+        if !held {
+            return Err(InvalidQuantity::InsufficientPrecision { digits });
+        }
+        (None, NumberFinding::TooCoarse { digits })
     } else if let Some((id, finding)) = turned(question, values) {
         (Some(id), finding)
     } else if let Some(usual) = recognise(question, values, &reading.rounding) {
@@ -59,20 +65,36 @@ pub(crate) fn judge(
     Ok(Judgement::wrong(share, misconception, feedback))
 }
 
-/// Whether an answer is wrong by no more than the rounding of its own digits: then more digits may make it right. It tells
-/// nothing that the verdict on those digits would not. Nobody rounds to zero what is not small, nor by a tenth of the whole.
+/// Whether an answer is wrong by no more than the rounding of its own few digits: then more digits may make it right. It tells
+/// nothing that the verdict on those digits would not. Nobody rounds by a tenth of the whole.
 fn is_too_coarse(question: &QuantityQuestion, reading: &Reading) -> bool {
     let size = norm(&question.reference);
     let allowed = question.tolerance.allowed(size);
-    let explained = reading.values.iter().zip(&reading.rounding).zip(&question.reference).all(
-        |((value, rounding), right)| {
-            let rounding = if *value == 0.0 { 0.0 } else { *rounding };
-            (value - right).abs() <= (allowed + rounding) * (1.0 + 1e-12)
-        },
-    );
-    !question.tolerance.is_exact()
-        && explained
-        && distance(&reading.values, &question.reference) <= FAR * size
+    let explained = reading
+        .values
+        .iter()
+        .zip(roundings(reading))
+        .zip(&question.reference)
+        .all(|((value, rounding), right)| (value - right).abs() <= (allowed + rounding) * (1.0 + 1e-12));
+    is_short(question, reading) && explained && distance(&reading.values, &question.reference) <= FAR * size
+}
+
+/// What rounding may have changed. Nobody rounds to zero what is not small.
+fn roundings(reading: &Reading) -> impl Iterator<Item = f64> {
+    reading.values.iter().zip(&reading.rounding).map(|(value, r)| if *value == 0.0 { 0.0 } else { *r })
+}
+
+/// Whether rounding to these digits alone can make an answer wrong, whatever is right.
+fn is_short(question: &QuantityQuestion, reading: &Reading) -> bool {
+    let allowed = question.tolerance.allowed(norm(&reading.values));
+    !question.tolerance.is_exact() && roundings(reading).any(|rounding| rounding > allowed)
+}
+
+/// What a short answer is told beside one that is asked for more digits: the same, whether it is right or not.
+pub(super) fn more_digits(question: &QuantityQuestion, answer: &Answer) -> Option<InvalidQuantity> {
+    let reading = reading::read(question, answer).ok()?;
+    is_short(question, &reading)
+        .then(|| InvalidQuantity::InsufficientPrecision { digits: question.tolerance.digits() })
 }
 
 /// The numbers of an answer in the question's unit, if they can be read and their dimension is right.

@@ -23,6 +23,10 @@ impl Lesson {
         let mut bundle = json!({
             "folder": self.folder, "number": self.number, "hash": self.hash, "opens": self.opens, "files": files
         });
+        // Nothing is said of what holds for almost all: the bundles of before stay as they are.
+        if self.held {
+            bundle["held"] = true.into();
+        }
         if let Some(dealer) = &self.dealer {
             bundle["dealer"] = dealer.bundle().into();
         }
@@ -60,8 +64,16 @@ impl Lesson {
             None => OpensFile::default(),
         };
         let lesson = Self::from_files(folder, files)?;
+        let held = bundle["held"] == true;
         let dealer = bundle["dealer"].as_str().map(Self::from_bundle).transpose()?.map(Arc::new);
-        Ok(Self { number: number.unwrap_or(lesson.number), hash: hash.to_owned(), opens, dealer, ..lesson })
+        Ok(Self {
+            number: number.unwrap_or(lesson.number),
+            hash: hash.to_owned(),
+            opens,
+            held,
+            dealer,
+            ..lesson
+        })
     }
 }
 
@@ -92,6 +104,14 @@ mod tests {
             assert_eq!((&again.hash, again.bundle()), (&lesson.hash, lesson.bundle()), "{}", lesson.slug);
             assert_eq!((again.number, again.opens), (lesson.number, lesson.opens), "{}", lesson.slug);
         }
+    }
+
+    #[test]
+    fn a_bundle_says_that_verdicts_are_held_back_only_where_they_are() {
+        let lesson = Course::embedded().unwrap().lessons()[0].clone();
+        assert!(!lesson.bundle().contains("\"held\""));
+        let held = Lesson { held: true, ..lesson };
+        assert!(Lesson::from_bundle(&held.bundle()).unwrap().held);
     }
 
     #[test]

@@ -39,6 +39,8 @@ pub struct Lesson {
     pub seed: String,
     /// When right answers are shown.
     pub opens: OpensFile,
+    /// Whether verdicts are not told as they are given: then nothing that is told at once may follow from what is right.
+    pub held: bool,
     /// Title of the part of its course that it stands in.
     pub part: Option<String>,
     /// What the numbers were drawn from: the name, or its keyed fingerprint where the class has a secret.
@@ -126,6 +128,7 @@ impl Lesson {
             parameters,
             seed: String::new(),
             opens: OpensFile::default(),
+            held: false,
             part: None,
             drawn_from: String::new(),
             dealer: None,

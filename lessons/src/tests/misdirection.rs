@@ -19,7 +19,7 @@ fn code(question: &QuantityQuestion, typed: &[&str]) -> Option<String> {
         unit: Some(question.unit.text().to_owned()),
         ..Answer::default()
     };
-    quantity::judge(question, "", &answer).unwrap().misconception
+    quantity::judge(question, "", &answer, false).unwrap().misconception
 }
 
 fn quantity_of<'a>(lesson: &'a Lesson, id: &str) -> &'a QuantityQuestion {
@@ -50,7 +50,7 @@ fn no_count_is_told_of_halves_and_units() {
             let own = |code: &str| body.misconceptions.iter().any(|m| m.id == code);
             for typed in 0..100 {
                 let answer = Answer { value: Some(TypedValue::Text(typed.to_string())), ..Answer::default() };
-                let judgement = quantity::judge(body, "", &answer).unwrap();
+                let judgement = quantity::judge(body, "", &answer, false).unwrap();
                 let Some(code) = judgement.misconception.filter(|code| !own(code)) else { continue };
                 told += 1;
                 assert!(

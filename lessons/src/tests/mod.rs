@@ -4,6 +4,7 @@ mod claims;
 mod dealing;
 mod explanations;
 mod fairness;
+mod few_digits;
 mod golden_variants;
 mod kinds;
 mod minutes;

@@ -183,7 +183,7 @@ fn answer(question: &QuantityQuestion, values: &[f64]) -> Answer {
 }
 
 fn judge_values(question: &QuantityQuestion, values: &[f64]) -> Result<Judgement, String> {
-    quantity::judge(question, "", &answer(question, values)).map_err(|e| e.to_string())
+    quantity::judge(question, "", &answer(question, values), false).map_err(|e| e.to_string())
 }
 
 fn judge(lesson: &Lesson, question: &Question, value: &TypedValue) -> Result<Judgement, String> {

@@ -108,7 +108,7 @@ fn judge_all() -> BTreeMap<String, Count> {
         }
     };
     let quantity = |question: QuantityQuestion| {
-        move |text: &str| quantity::judge(&question, "", &typed(text)).map_err(|e| e.to_string())
+        move |text: &str| quantity::judge(&question, "", &typed(text), false).map_err(|e| e.to_string())
     };
     for of in &corpus.number {
         let asked = (of.unit.as_str(), of.asks_unit, of.relative);

@@ -1,7 +1,7 @@
 //! What is said about one answer, as data: numbers, names, and texts of the author in Markdown.
 
 pub(crate) use super::diagram::{DiagramFinding, DiagramSlip};
-use super::invalid::InvalidAnswer;
+use super::invalid::{InvalidAnswer, InvalidQuantity};
 use super::sent::Mark;
 use crate::answers::diagram::Arrow;
 use crate::answers::tolerance::ValueShape;
@@ -63,6 +63,12 @@ impl Judgement {
             feedback: Feedback::Waiting,
             figure: None,
         }
+    }
+
+    /// Whether it says that the number is right to its few digits.
+    pub(crate) fn asks_for_digits(&self) -> bool {
+        let Feedback::Invalid(InvalidAnswer::Quantity(why)) = &self.feedback else { return false };
+        matches!(why, InvalidQuantity::InsufficientPrecision { .. })
     }
 
     /// What cannot be judged.
@@ -187,6 +193,10 @@ pub(crate) enum NumberFinding {
     /// The length of a vector is right, its direction is not.
     Direction {
         frame: Option<String>,
+    },
+    /// Wrong by no more than the rounding of its digits, where more could not be asked for.
+    TooCoarse {
+        digits: Option<u32>,
     },
     Unknown,
 }

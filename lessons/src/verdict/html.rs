@@ -6,6 +6,7 @@ use super::feedback::{
     Demand, DemandResult, DiagramFinding, DiagramSlip, Discrepancy, Feedback, FormulaFinding, MotionFinding,
     NumberFinding, PartFinding, QuantityFeedback, TuningFeedback, UnitFinding,
 };
+use super::invalid::InvalidQuantity;
 use crate::answers::diagram::{Arrow, place_in_words};
 use crate::answers::tolerance::ValueShape;
 use crate::answers::units::Unit;
@@ -121,6 +122,9 @@ fn quantity(quantity: &QuantityFeedback) -> String {
             paragraph(&format!("The length is right, the direction is not. Components in {frame}?"))
         }
         NumberFinding::Usual(recognised) => usual(recognised),
+        NumberFinding::TooCoarse { digits } => {
+            paragraph(&InvalidQuantity::InsufficientPrecision { digits: *digits }.to_string())
+        }
         NumberFinding::Unknown => String::new(),
     };
     let either = match quantity.unit {

@@ -38,8 +38,8 @@ pub struct Entry {
     pub marked: Vec<Marked>,
     /// What was said besides.
     pub said: Vec<Decision>,
-    /// What was predicted, by id; what was skipped is left out.
-    pub predicted: Vec<String>,
+    /// What was predicted, by id, and when; what was skipped is left out.
+    pub predicted: Vec<(String, Moment)>,
     /// What is allowed to this person.
     pub extension: Option<Extension>,
     /// When the last regrade that holds changed what this person has reached.
@@ -81,6 +81,36 @@ impl Entry {
     pub fn mark(&self, question: &str) -> Option<&Marked> {
         self.marked.iter().rfind(|one| one.question == question).filter(|one| one.points.is_some())
     }
+
+    /// The entry with the predictions and the marks that there were at a moment.
+    #[must_use]
+    pub fn by(mut self, then: Moment) -> Self {
+        self.predicted.retain(|(_, at)| *at <= then);
+        self.marked.retain(|one| one.at <= then);
+        self
+    }
+
+    /// Points for having predicted what a run would show. They count besides what the exercise earns, and pass nothing.
+    pub fn predicted(&self, lesson: &Lesson) -> f64 {
+        self.predicted.iter().filter_map(|(id, _)| lesson.prediction(id)).map(|one| one.points).sum()
+    }
+
+    /// Points that people gave for explanations. They count besides what the exercise earns, and pass nothing.
+    pub fn explained(&self, lesson: &Lesson) -> f64 {
+        let asked = lesson.exercise.questions.iter().filter(|question| question.is_judged_by_people());
+        let given = |question: &Question| {
+            let points = self.mark(&question.id).and_then(|mark| mark.points).unwrap_or(0.0);
+            // A course that was changed since gives no more than it has.
+            points.min(question.points)
+        };
+        asked.map(given).sum()
+    }
+
+    /// Whether there is a grade to tell: without one a cell stays empty, which is not 0.
+    pub fn is_graded(&self, lesson: &Lesson, stands: &Standing) -> bool {
+        let is_marked = lesson.exercise.questions.iter().any(|question| self.mark(&question.id).is_some());
+        stands.last.is_some() || stands.score.decided.is_some() || is_marked || self.predicted(lesson) > 0.0
+    }
 }
 
 impl Book {
@@ -102,7 +132,7 @@ impl Book {
         }
         for one in store.predictions(course, person, lesson).await? {
             if one.choice.is_some() {
-                book.entry(one.person, one.lesson).predicted.push(one.prediction);
+                book.entry(one.person, one.lesson).predicted.push((one.prediction, Moment(one.given_at)));
             }
         }
         for one in store.decisions(course, person, lesson).await? {
@@ -141,39 +171,26 @@ impl Book {
         self.entries.get(person)?.get(lesson)
     }
 
-    /// Points for having predicted what a run would show. They count besides what the exercise earns, and pass nothing.
-    pub fn predicted(&self, person: &str, lesson: &Lesson) -> f64 {
-        let made = self.of(person, &lesson.slug).map_or(&[][..], |entry| &entry.predicted);
-        made.iter().filter_map(|id| lesson.prediction(id)).map(|one| one.points).sum()
-    }
-
-    /// Points that people gave for explanations. They count besides what the exercise earns, and pass nothing.
-    pub fn explained(&self, person: &str, lesson: &Lesson) -> f64 {
-        let Some(entry) = self.of(person, &lesson.slug) else { return 0.0 };
-        let asked = lesson.exercise.questions.iter().filter(|question| question.is_judged_by_people());
-        let given = |question: &Question| {
-            let points = entry.mark(&question.id).and_then(|mark| mark.points).unwrap_or(0.0);
-            // A course that was changed since gives no more than it has.
-            points.min(question.points)
-        };
-        asked.map(given).sum()
-    }
-
     /// Where a person stands in a lesson at a moment.
     pub fn standing(&self, person: &str, lesson: &Lesson, now: Moment) -> Standing {
         let (none, open) = (Entry::default(), Assignment::of(&lesson.slug));
         let entry = self.of(person, &lesson.slug).unwrap_or(&none);
         let assignment = self.assignment(&lesson.slug).unwrap_or(&open);
-        let mut stands = standing(&case(assignment, entry, lesson), now);
-        if stands.score.decided.is_none() {
-            stands.score.points += self.predicted(person, lesson) + self.explained(person, lesson);
-        }
-        stands
+        stands(assignment, entry, lesson, now)
     }
 }
 
+/// Where somebody stands in a lesson at a moment, with what counts besides the exercise.
+pub fn stands(assignment: &Assignment, entry: &Entry, lesson: &Lesson, now: Moment) -> Standing {
+    let mut stands = standing(&case(assignment, entry, lesson), now);
+    if stands.score.decided.is_none() {
+        stands.score.points += entry.predicted(lesson) + entry.explained(lesson);
+    }
+    stands
+}
+
 /// What a standing follows from.
-pub fn case<'a>(assignment: &'a Assignment, entry: &'a Entry, lesson: &Lesson) -> Case<'a> {
+fn case<'a>(assignment: &'a Assignment, entry: &'a Entry, lesson: &Lesson) -> Case<'a> {
     Case {
         policy: &assignment.policy,
         released: assignment.released,
@@ -185,11 +202,12 @@ pub fn case<'a>(assignment: &'a Assignment, entry: &'a Entry, lesson: &Lesson) -
 }
 
 /// A lesson as its policy has it graded: where right answers are not told as the course opens them, none opens, and so no
-/// question is settled by having been opened.
+/// question is settled by having been opened; and it knows whether verdicts are held back.
 pub fn assigned(lesson: &Lesson, policy: &Policy) -> Lesson {
     let mut own = lesson.clone();
     if policy.reveal.reference != When::AtOnce {
         own.opens = triad_lessons::files::OpensFile::default();
     }
+    own.held = policy.reveal.points != When::AtOnce;
     own
 }

@@ -10,7 +10,7 @@ use csv::ReaderBuilder;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::exports::{sheet, title_of};
+use super::exports::{quoted, title_of};
 use super::{GradeTable, GradedLesson, StudentRow};
 use crate::problem::Problem;
 use crate::store::names::key;
@@ -29,13 +29,14 @@ pub struct Filled {
     pub found: Vec<String>,
     /// Lessons with grades that have no column: make an assignment of that title in Canvas, and export again.
     pub without_column: Vec<String>,
-    /// Names in the table whom nobody here has.
+    /// Names in the table whom nobody here has, or that stand there more than once: whose grade it is nobody knows.
     pub unknown: Vec<String>,
-    /// Names here that are not in the table.
+    /// Names here that are not in the table, or more than once.
     pub missing: Vec<String>,
 }
 
-/// Fills what everybody has reached into a table that Canvas exported. A cell is never emptied.
+/// Fills what everybody has reached into a table that Canvas exported. A cell is never emptied, and who is
+/// excused (`EX`) stays so.
 ///
 /// Errors if it is no such table.
 pub fn fill(exported: &str, table: &GradeTable) -> Result<Filled, Problem> {
@@ -62,18 +63,24 @@ pub fn fill(exported: &str, table: &GradeTable) -> Result<Filled, Problem> {
         unknown: Vec::new(),
         missing: Vec::new(),
     };
-    let mut seen = HashSet::new();
+    let here = |row: &[String]| spellings(&row[0]).iter().find_map(|name| students.get(name)).copied();
+    let mut seen: HashMap<&str, usize> = HashMap::new();
+    for student in rows.iter().skip(1).filter(|row| is_person(row)).filter_map(|row| here(row)) {
+        *seen.entry(&student.id).or_default() += 1;
+    }
+    let is_one = |student: &StudentRow| seen.get(student.id.as_str()) == Some(&1);
     let mut touched = HashSet::new();
     for row in rows.iter_mut().skip(1).filter(|row| is_person(row)) {
-        let Some(student) = spellings(&row[0]).iter().find_map(|name| students.get(name)) else {
+        let Some(student) = here(row).filter(|student| is_one(student)) else {
             filled.unknown.push(row[0].clone());
             continue;
         };
-        seen.insert(student.id.clone());
         row.resize(row.len().max(head.len()), String::new());
         for (at, lesson) in &columns {
             let Some(reached) = student.lessons.get(&lesson.slug) else { continue };
-            if row[*at].trim().parse() != Ok(reached.points) {
+            // Who is excused there stays so.
+            let is_excused = row[*at].trim().eq_ignore_ascii_case("EX");
+            if !is_excused && row[*at].trim().parse() != Ok(reached.points) {
                 row[*at] = reached.points.to_string();
                 filled.changed += 1;
                 touched.insert(*at);
@@ -85,13 +92,14 @@ pub fn fill(exported: &str, table: &GradeTable) -> Result<Filled, Problem> {
         |lesson: &&GradedLesson| table.students.iter().any(|one| one.lessons.contains_key(&lesson.slug));
     let without = table.lessons.iter().filter(|lesson| graded(lesson) && !has_column(lesson));
     filled.without_column = without.map(title_of).collect();
-    let missing = table.students.iter().filter(|student| !seen.contains(&student.id));
+    let missing = table.students.iter().filter(|student| !is_one(student));
     filled.missing = missing.map(|student| student.name.clone()).collect();
     let stays = |at: usize| touched.contains(&at) || PEOPLE.contains(&head[at].as_str());
     let kept: Vec<usize> = (0..head.len()).filter(|at| stays(*at)).collect();
     let of_row =
         |row: &Vec<String>| kept.iter().map(|at| row.get(*at).cloned().unwrap_or_default()).collect();
-    filled.csv = sheet(&rows.iter().map(of_row).collect::<Vec<Vec<String>>>())?;
+    // What Canvas wrote it knows again only byte by byte.
+    filled.csv = quoted(&rows.iter().map(of_row).collect::<Vec<Vec<String>>>())?;
     Ok(filled)
 }
 
@@ -189,6 +197,26 @@ mod tests {
         // Imported and exported again, nothing is left to change.
         let again = fill(&filled.csv, &table()).unwrap();
         assert_eq!((again.changed, again.found), (0, vec!["Pendulum (83)".to_owned()]));
+    }
+
+    /// Whose grade it is, nobody here can tell apart.
+    #[test]
+    fn of_two_rows_of_one_name_neither_is_filled() {
+        let twice = "Student,ID,Pendulum (83)\n\"Lovelace, Ada\",1,\nADA LOVELACE,2,3\nZoë B,3,\n";
+        let filled = fill(twice, &table()).unwrap();
+        assert_eq!(filled.changed, 0, "{}", filled.csv);
+        assert_eq!(filled.unknown, ["Lovelace, Ada", "ADA LOVELACE"]);
+        assert_eq!(filled.missing, ["Ada Lovelace", "Not There"]);
+    }
+
+    #[test]
+    fn who_is_excused_stays_so_and_logins_stay_as_they_are() {
+        let exported = "Student,ID,SIS User ID,SIS Login ID,Bodies (81),Pendulum (83)\n\
+            \"Lovelace, Ada\",1,-17,@ada,EX,\n=Zoë B,2,+3,zoe,3,\n";
+        let filled = fill(exported, &table()).unwrap();
+        let wanted = "\"Student\",\"ID\",\"SIS User ID\",\"SIS Login ID\",\"Pendulum (83)\"\n\
+            \"Lovelace, Ada\",\"1\",\"-17\",\"@ada\",\"7.5\"\n\"=Zoë B\",\"2\",\"+3\",\"zoe\",\"\"\n";
+        assert_eq!((filled.csv.as_str(), filled.changed), (wanted, 1));
     }
 
     #[test]

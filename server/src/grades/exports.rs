@@ -92,9 +92,16 @@ struct Line<'a> {
 ///
 /// Errors if it cannot be written, which memory does not do.
 pub fn sheet(rows: &[Vec<String>]) -> Result<String, Problem> {
+    quoted(&rows.iter().map(|row| row.iter().map(|cell| harmless(cell)).collect()).collect::<Vec<_>>())
+}
+
+/// Rows as CSV: every cell quoted, and as it is.
+///
+/// Errors if it cannot be written, which memory does not do.
+pub(super) fn quoted(rows: &[Vec<String>]) -> Result<String, Problem> {
     let mut writer = WriterBuilder::new().quote_style(QuoteStyle::Always).from_writer(Vec::new());
     for row in rows {
-        writer.write_record(row.iter().map(|cell| harmless(cell))).map_err(Problem::internal)?;
+        writer.write_record(row).map_err(Problem::internal)?;
     }
     let bytes = writer.into_inner().map_err(Problem::internal)?;
     String::from_utf8(bytes).map_err(Problem::internal)

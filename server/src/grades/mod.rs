@@ -15,7 +15,7 @@ use crate::policy::{Decided, Moment};
 use crate::problem::Problem;
 use crate::store::{DecisionKind, Member, Role, Store};
 
-pub use book::{Book, Entry, Marked, assigned, case, pass_points, possible};
+pub use book::{Book, Entry, Marked, assigned, pass_points, possible, stands};
 pub use canvas::{Filled, fill};
 pub use exports::{Format, csv, lines, sheet};
 pub use record::{LessonRecord, Record, record, told};
@@ -112,15 +112,14 @@ pub async fn table(store: &Store, id: &str, course: &Course, now: Moment) -> Res
 fn reached(book: &Book, person: &str, lesson: &Lesson, now: Moment) -> Option<(String, Reached)> {
     let entry = book.of(person, &lesson.slug)?;
     let stands = book.standing(person, lesson, now);
-    let predicted = book.predicted(person, lesson);
-    if stands.last.is_none() && stands.score.decided.is_none() && predicted == 0.0 {
+    if !entry.is_graded(lesson, &stands) {
         return None;
     }
     let one = Reached {
         points: stands.score.points,
         earned: stands.score.earned,
-        predicted,
-        explained: book.explained(person, lesson),
+        predicted: entry.predicted(lesson),
+        explained: entry.explained(lesson),
         attempts: stands.turn.attempts,
         passed: stands.score.passed,
         late: stands.score.late,

@@ -80,11 +80,9 @@ impl Unread {
 /// What a platform may be told now; nothing where there is nothing yet, or it is held back.
 fn score(book: &Book, unread: &HashSet<String>, person: &str, lesson: &Lesson, now: Moment) -> Option<Score> {
     let possible = possible(lesson);
-    book.of(person, &lesson.slug)?;
+    let entry = book.of(person, &lesson.slug)?;
     let stands = book.standing(person, lesson, now);
-    let has_any =
-        stands.last.is_some() || stands.score.decided.is_some() || book.predicted(person, lesson) > 0.0;
-    if possible <= 0.0 || !has_any || !stands.turn.revealed.points {
+    if possible <= 0.0 || !entry.is_graded(lesson, &stands) || !stands.turn.revealed.points {
         return None;
     }
     let is_over = matches!(stands.turn.phase, Phase::Closed | Phase::Practice);

@@ -7,8 +7,9 @@ use std::time::{Duration, Instant};
 
 use axum::http::StatusCode;
 use tokio::time::sleep;
-use triad_lessons::{Lesson, Verdict};
+use triad_lessons::Verdict;
 
+use super::versions::{Lessons, Version};
 use crate::problem::Problem;
 use crate::store::{NewJudging, Recorded, Store};
 
@@ -34,30 +35,19 @@ impl Progress {
     }
 }
 
-/// A lesson that may not be kept in the gradebook yet.
-pub(super) struct Version<'a> {
-    /// Its SHA-256.
-    pub sha256: &'a str,
-    /// Its slug.
-    pub slug: &'a str,
-    /// As [`Lesson::bundle`] writes it.
-    pub bundle: &'a str,
-}
-
 /// Has every submission judged by the lesson that judged it, where that can be read, and by the new one.
 ///
 /// Errors if the gradebook does not answer, or it takes too long.
 pub(super) async fn by_graders(
     store: &Store,
     records: &[Recorded],
-    old: &HashMap<String, Option<Lesson>>,
-    new: &Version<'_>,
+    lessons: &Lessons,
     progress: &Progress,
 ) -> Result<Judged, Problem> {
     let mut wanted = BTreeSet::new();
     for record in records {
-        wanted.insert((record.id.as_str(), new.sha256));
-        if old.get(&record.lesson_sha256).is_some_and(Option::is_some) {
+        wanted.insert((record.id.as_str(), lessons.new_for(&record.id).sha256.as_str()));
+        if lessons.old.get(&record.lesson_sha256).is_some_and(Option::is_some) {
             wanted.insert((record.id.as_str(), record.lesson_sha256.as_str()));
         }
     }
@@ -68,7 +58,9 @@ pub(super) async fn by_graders(
             lesson_sha256: (*sha256).to_owned(),
         })
         .collect();
-    store.ask_judgings((new.sha256, new.slug, new.bundle), &asked).await?;
+    let new = |one: &Version| (one.sha256.clone(), one.lesson.slug.clone(), one.bundle.clone());
+    let new: Vec<_> = lessons.new.iter().map(new).collect();
+    store.ask_judgings(&new, &asked).await?;
     let lessons: BTreeSet<&str> = wanted.iter().map(|(_, sha256)| *sha256).collect();
     progress.of.store(asked.len(), Ordering::Relaxed);
     let began = Instant::now();

@@ -1,7 +1,9 @@
 //! Grading again what was handed in, with the lesson that graded it then.
 
-mod judged;
 mod told;
+mod versions;
+
+mod judged;
 
 mod regrading;
 
@@ -52,7 +54,7 @@ pub struct Change {
 }
 
 /// Grades all submissions of a course again, each with the lesson, the seed and the answers that are kept, and compares.
-/// Nothing is written.
+/// Nothing is written. What was handed in by whoever is erased is not there to be graded.
 ///
 /// Errors if the gradebook cannot be read.
 pub async fn check(store: &Store, course: &str) -> Result<Rebuilt, Problem> {
@@ -61,7 +63,7 @@ pub async fn check(store: &Store, course: &str) -> Result<Rebuilt, Problem> {
     let (variants, wanted) = (Variants::default(), Wanted::default());
     // Earlier submissions decide what a later one can still earn, by the verdicts that were in force when it was judged.
     let mut known: HashMap<(String, String), Vec<StoredSubmission>> = HashMap::new();
-    for record in store.recorded(course, None).await? {
+    for record in store.judgeable(course, None).await? {
         let all = known.entry((record.person.clone(), record.lesson.clone())).or_default();
         let earlier = replace(all, &record);
         if record.lesson_sha256.is_empty() {

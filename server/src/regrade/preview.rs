@@ -11,14 +11,14 @@ use std::time::Instant;
 use serde_json::Value;
 use triad_lessons::Lesson;
 
-use super::judged::{Progress, Version, by_graders};
-use super::regrading::{Graded, Judges, Lessons, Regrading};
+use super::judged::{Progress, by_graders};
+use super::regrading::{Graded, Judges, Regrading};
 use super::told::{Changed, Counts, PersonChange, Preview};
+use super::versions::Lessons;
 use crate::aside;
-use crate::grades::{Book, Entry, assigned, case};
-use crate::policy::{Moment, standing};
+use crate::grades::{Book, Entry, assigned, stands};
+use crate::policy::Moment;
 use crate::problem::Problem;
-use crate::store::hash::sha256;
 use crate::store::{Assignment, NewRegrade, NewVerdict, Recorded, Store, StoreError};
 use crate::variants::Variants;
 use crate::work::Asker;
@@ -34,7 +34,8 @@ pub struct PreparedRegrade {
     /// What is shown.
     pub shown: Preview,
     people: Vec<(PersonChange, Vec<Graded>)>,
-    bundle: String,
+    /// The lessons that graded, as bundles: first as it is assigned now.
+    bundles: Vec<String>,
     verdicts: usize,
     /// What this program computed for it: none where graders did.
     pub made: triad_lessons::Computed,
@@ -96,13 +97,18 @@ impl PreparedRegrade {
         Ok((serde_json::from_str(&one.record.body).map_err(Problem::internal)?, one.body.clone()))
     }
 
-    /// What is written to apply it: for everybody, or (`better`) for those alone who do not lose by it.
+    /// What is written to apply it: for everybody, or (`better`) for those alone who do not lose by it, neither now nor by a
+    /// verdict that may count later: a decision can be taken back, and more time be given.
     pub fn applied(&self, course: &str, actor: &str, better: bool, reason: &str) -> NewRegrade {
-        let chosen = self.people.iter().filter(|(one, _)| !better || one.after >= one.before);
+        let chosen = self
+            .people
+            .iter()
+            .filter(|(one, graded)| !better || one.after >= one.before && !graded.iter().any(Graded::lowers));
         let chosen: Vec<_> = chosen.filter(|(one, _)| !one.submissions.is_empty()).collect();
         let new = chosen.iter().flat_map(|(_, graded)| graded).filter_map(|one| {
             let body = one.body.as_ref()?.to_string();
-            Some(NewVerdict { submission: one.record.id.clone(), body })
+            let lesson_sha256 = one.version.clone();
+            Some(NewVerdict { submission: one.record.id.clone(), lesson_sha256, body })
         });
         NewRegrade {
             course: course.to_owned(),
@@ -110,7 +116,7 @@ impl PreparedRegrade {
             actor: actor.to_owned(),
             choice: if better { "better" } else { "replace" },
             reason: reason.to_owned(),
-            bundle: self.bundle.clone(),
+            bundles: self.bundles.clone(),
             verdicts: self.verdicts,
             new: new.collect(),
             people: chosen.iter().map(|(one, _)| (one.person.clone(), one.before, one.after)).collect(),
@@ -133,7 +139,7 @@ pub async fn preview(
     let book = Book::open(store, course, None, Some(&lesson.slug)).await?;
     let assignment = book.assignment(&lesson.slug).cloned().unwrap_or_else(|| Assignment::of(&lesson.slug));
     let new = assigned(lesson, &assignment.policy);
-    let records = store.recorded(course, Some(&lesson.slug)).await?;
+    let records = store.judgeable(course, Some(&lesson.slug)).await?;
     let mut old = HashMap::new();
     for record in &records {
         if !record.lesson_sha256.is_empty() && !old.contains_key(&record.lesson_sha256) {
@@ -143,16 +149,15 @@ pub async fn preview(
     }
     let names: HashMap<String, String> =
         store.people(course).await?.into_iter().map(|person| (person.id, person.name)).collect();
-    let bundle = new.bundle();
-    let (version, verdicts, slug) = (sha256(&bundle), records.len(), lesson.slug.clone());
+    let (verdicts, slug) = (records.len(), lesson.slug.clone());
+    let lessons = Lessons::new(old, new, &records);
+    let bundles = lessons.new.iter().map(|one| one.bundle.clone()).collect();
     let judges = if store.is_shared() {
-        let version = Version { sha256: &version, slug: &slug, bundle: &bundle };
-        Judges::Graders(by_graders(store, &records, &old, &version, &progress).await?)
+        Judges::Graders(by_graders(store, &records, &lessons, &progress).await?)
     } else {
         progress.of.store(verdicts, Ordering::Relaxed);
         Judges::Here(progress)
     };
-    let lessons = Lessons { old, new, version: version.clone() };
     // Whoever leaves drops the asker.
     let (_asker, wanted) = Asker::new();
     let again = move || {
@@ -171,9 +176,9 @@ pub async fn preview(
     let mut shown = summary(&people, crate::grades::possible(lesson));
     (shown.id, shown.lesson) = (id, slug);
     let all = people.iter().flat_map(|(_, graded)| graded);
-    shown.of_other_versions = all.filter(|one| one.record.lesson_sha256 != version).count();
+    shown.of_other_versions = all.filter(|one| one.record.lesson_sha256 != one.version).count();
     shown.seconds = started.elapsed().as_secs_f64();
-    Ok(PreparedRegrade { shown, people, bundle, verdicts, made })
+    Ok(PreparedRegrade { shown, people, bundles, verdicts, made })
 }
 
 /// What each person was told, in the order of the log.
@@ -203,7 +208,7 @@ fn person_change(
             handed.judged = new["gradable"] == true;
         }
     }
-    let stands = |entry: &Entry| standing(&case(assignment, entry, lesson), now);
+    let stands = |entry: &Entry| stands(assignment, entry, lesson, now);
     let (before, after) = (stands(&entry), stands(&next));
     let touched = graded.iter().map(|one| &one.change);
     let touched = touched.filter(|one| one.changed != Changed::Same || one.program.is_some());

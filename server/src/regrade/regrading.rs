@@ -1,6 +1,6 @@
 //! All submissions to a lesson graded again, with the lesson that graded them and with a new version of it.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -10,6 +10,7 @@ use triad_lessons::{Lesson, Verdict};
 
 use super::judged::{Judged, Progress};
 use super::told::{Changed, SubmissionChange};
+use super::versions::Lessons;
 use super::{again, first_difference, replace, stored};
 use crate::grading;
 use crate::store::{Recorded, StoredSubmission};
@@ -21,15 +22,17 @@ pub struct Graded {
     pub record: Recorded,
     pub change: SubmissionChange,
     pub body: Option<Value>,
+    /// SHA-256 of the lesson that graded it.
+    pub version: String,
 }
 
-/// The lessons that judged, and the one that is to.
-pub struct Lessons {
-    /// By SHA-256; none where this program cannot read it.
-    pub old: HashMap<String, Option<Lesson>>,
-    pub new: Lesson,
-    /// SHA-256 of the new one.
-    pub version: String,
+impl Graded {
+    /// Whether the new verdict is worse than the one in force.
+    pub fn lowers(&self) -> bool {
+        let Some(new) = &self.body else { return false };
+        let kept: Value = serde_json::from_str(&self.record.body).unwrap_or_default();
+        points(new) < points(&kept) || kept["gradable"] == true && new["gradable"] != true
+    }
 }
 
 /// Who judges.
@@ -78,7 +81,7 @@ impl Regrading<'_> {
     }
 
     fn person(&self, records: &[Recorded]) -> Vec<Graded> {
-        let Lessons { old, new, version } = &self.lessons;
+        let old = &self.lessons.old;
         let mut known: Vec<StoredSubmission> = Vec::new();
         let mut graded: Vec<Graded> = Vec::new();
         for record in records {
@@ -89,10 +92,11 @@ impl Regrading<'_> {
             let control = (!sha256.is_empty()).then(|| again(record, lesson, judge, earlier));
             let place = graded.iter().position(|one| one.record.id == record.id).unwrap_or(graded.len());
             let told: Vec<StoredSubmission> = graded[..place].iter().map(newly_stored).collect();
-            let judge = |lesson: &Lesson| self.judge(record, lesson, version);
-            let now = again(record, Some(new), judge, told).ok();
+            let new = self.lessons.new_for(&record.id);
+            let judge = |lesson: &Lesson| self.judge(record, lesson, &new.sha256);
+            let now = again(record, Some(&new.lesson), judge, told).ok();
             let change = submission_change(record, control, now.as_ref());
-            let one = Graded { record: record.clone(), change, body: now };
+            let one = Graded { record: record.clone(), change, body: now, version: new.sha256.clone() };
             match graded.get_mut(place) {
                 Some(before) => *before = one,
                 None => graded.push(one),
@@ -134,7 +138,6 @@ fn submission_change(
     };
     // What the lesson changes is what differs between two runs of this program.
     let before = control.and_then(Result::ok).unwrap_or(kept);
-    let points = |verdict: &Value| verdict["earned"].as_f64().unwrap_or_default();
     let changed = match now {
         None => Changed::Failed,
         Some(now) if before["gradable"] != now["gradable"] => Changed::Gradable,
@@ -152,6 +155,10 @@ fn submission_change(
         misconceptions: now.map(|now| misconceptions(&before, now)).unwrap_or_default(),
         program,
     }
+}
+
+fn points(verdict: &Value) -> f64 {
+    verdict["earned"].as_f64().unwrap_or_default()
 }
 
 /// A verdict without what names the version of the lesson.

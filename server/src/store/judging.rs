@@ -48,21 +48,22 @@ pub struct Outcome {
 }
 
 impl Store {
-    /// Asks for judgements by this program, unless they are there, and once more for those that were put aside; `lesson` is the one that may not be kept yet, with its SHA-256,
+    /// Asks for judgements by this program, unless they are there, and once more for those that were put aside; `lessons` are those that may not be kept yet, with SHA-256,
     /// slug and bundle.
     ///
     /// Errors if it cannot be written.
     pub async fn ask_judgings(
         &self,
-        lesson: (&str, &str, &str),
+        lessons: &[(String, String, String)],
         wanted: &[NewJudging],
     ) -> Result<(), StoreError> {
         let mut transaction = self.write().await?;
         let at = database::clock(&mut transaction).await?;
         sqlx::query(sql::FORGET_JUDGED).bind(at - KEPT).execute(&mut *transaction).await?;
-        let (sha256, slug, bundle) = lesson;
-        let add = sqlx::query(sql::ADD_LESSON).bind(sha256).bind(slug).bind(bundle);
-        add.bind(at).execute(&mut *transaction).await?;
+        for (sha256, slug, bundle) in lessons {
+            let add = sqlx::query(sql::ADD_LESSON).bind(sha256).bind(slug).bind(bundle);
+            add.bind(at).execute(&mut *transaction).await?;
+        }
         for one in wanted {
             let add = sqlx::query(sql::ADD_JUDGING).bind(&one.submission).bind(&one.lesson_sha256);
             add.bind(crate::BUILD).bind(at).execute(&mut *transaction).await?;

@@ -240,7 +240,10 @@ async fn what_may_be_missing_is_kept_in_any_order() {
     assert_eq!(kept.iter().map(|one| one.points).collect::<Vec<_>>(), points);
     for until in [None, Some(Moment(5)), None] {
         let more = Extension { until, attempts: 1, reason: "ill".into(), by: String::new(), at: Moment(0) };
-        store.extend(HOME, &person, &person, "pendulum", Some(&more)).await.expect("extends");
+        store
+            .extend(HOME, &person, &person, "pendulum", |_, _| Ok::<_, StoreError>(Some(more)))
+            .await
+            .expect("extends");
         let kept = store.extensions(HOME, None, None).await.expect("reads");
         assert_eq!(kept.iter().map(|(_, _, one)| one.until).collect::<Vec<_>>(), [until]);
     }

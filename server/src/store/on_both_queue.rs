@@ -222,6 +222,11 @@ async fn many_who_claim_at_once_get_each_one_once() {
     assert_eq!(store.faults().await.expect("looks"), Vec::<String>::new());
 }
 
+/// The lesson that is to judge, with its SHA-256.
+fn mended(sha256: &str) -> [(String, String, String); 1] {
+    [(sha256.to_owned(), "pendulum".to_owned(), "the mended lesson".to_owned())]
+}
+
 /// So many submissions that a regrade asks about, and the SHA-256 of the lesson that is to judge them.
 async fn regraded(store: &Store, count: usize) -> String {
     let mut asked = Vec::new();
@@ -231,8 +236,7 @@ async fn regraded(store: &Store, count: usize) -> String {
         let submission = kept.verdict["id"].as_str().expect("an id").to_owned();
         asked.push(NewJudging { submission, lesson_sha256: lesson.clone() });
     }
-    let mended = (lesson.as_str(), "pendulum", "the mended lesson");
-    store.ask_judgings(mended, &asked).await.expect("asks");
+    store.ask_judgings(&mended(&lesson), &asked).await.expect("asks");
     lesson
 }
 
@@ -287,7 +291,7 @@ async fn what_is_judged_again_is_judged_whatever_ends() {
     assert_eq!(store.judgings_open(&lesson).await.expect("counts"), 12);
     let put_aside = told.iter().find(|one| one.told.is_none()).expect("one").submission.clone();
     let asked = [NewJudging { submission: put_aside.clone(), lesson_sha256: lesson.clone() }];
-    store.ask_judgings((&lesson, "pendulum", "the mended lesson"), &asked).await.expect("asks again");
+    store.ask_judgings(&mended(&lesson), &asked).await.expect("asks again");
     assert_eq!(store.judgings_open(&lesson).await.expect("counts"), 13);
 }
 

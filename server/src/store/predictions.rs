@@ -2,11 +2,14 @@
 
 use sqlx::AnyConnection;
 
+use super::class::Assignment;
+use super::class::assignments::{ensured, extension_of};
 use super::error::StoreError;
 use super::log::{self, Event};
 use super::records::PredictionRow;
 use super::submissions::{Whose, person_of};
 use super::{Store, now, sql};
+use crate::policy::{Moment, admit};
 
 /// A prediction that is made, or declined.
 #[derive(Debug, Clone)]
@@ -53,7 +56,7 @@ impl Store {
     /// Keeps a prediction, unless the person has made it before: then nothing is changed. Whether it is new, and the id of the
     /// person.
     ///
-    /// Errors if it cannot be written.
+    /// Errors if the lesson is not open or closed, or it cannot be written.
     pub async fn predict(&self, new: &NewPrediction) -> Result<(bool, String), StoreError> {
         self.place_is_right()?;
         let mut transaction = self.write().await?;
@@ -108,13 +111,19 @@ async fn predict(connection: &mut AnyConnection, new: &NewPrediction) -> Result<
         why: new.why.clone(),
         given_at: at,
     };
-    let event = Event { actor: &person, what: "predicted", subject: &row.subject(), detail: &row.hash() };
-    let n = log::append(connection, &new.course, at, &event).await?;
     let find = sqlx::query_as(sql::PREDICTED).bind(&row.course).bind(&row.person).bind(&row.slug);
     let (before,): (i64,) = find.bind(&row.prediction).fetch_one(&mut *connection).await?;
     if before > 0 {
         return Ok((false, person));
     }
+    // To skip earns nothing, and the run waits for one or the other.
+    if row.choice.is_some() {
+        let Assignment { id, policy, .. } = ensured(connection, &row.course, &row.slug).await?;
+        let extension = extension_of(connection, &id, &person).await?;
+        admit(&policy, extension.as_ref(), &[], false, Moment(at))?;
+    }
+    let event = Event { actor: &person, what: "predicted", subject: &row.subject(), detail: &row.hash() };
+    let n = log::append(connection, &new.course, at, &event).await?;
     row.add(connection, n).await?;
     Ok((true, person))
 }

@@ -309,7 +309,10 @@ statements! {
         JOIN assignment a ON a.id = d.assignment JOIN person p ON p.id = d.decided_by WHERE d.course = $1 \
         AND (CAST($2 AS TEXT) IS NULL OR d.person = $2) AND (CAST($3 AS TEXT) IS NULL OR a.slug = $3) ORDER BY d.n";
 
-    VERDICT_COUNT = "SELECT COUNT(*) FROM verdict v JOIN submission s ON s.id = v.submission WHERE s.assignment = $1";
+    // Of the answers of whoever was erased nothing is judged again.
+    VERDICT_COUNT = "SELECT COUNT(*) FROM verdict v JOIN submission s ON s.id = v.submission WHERE s.assignment = $1 \
+        AND s.person NOT IN (SELECT e.subject FROM event e WHERE e.course = $2 AND e.what = 'erased')";
+    ERASED_PEOPLE = "SELECT DISTINCT subject FROM event WHERE course = $1 AND what = 'erased'";
     ADD_REGRADE = "INSERT INTO regrade (id, course, n, assignment, choice, reason, lesson_sha256, made_by, made_at, \
         verdicts) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10)";
     ADD_REGRADED = "INSERT INTO regraded (regrade, person, before_points, after_points) VALUES ($1, $2, $3, $4)";

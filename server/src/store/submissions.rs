@@ -1,5 +1,7 @@
 //! Handing in, and what was handed in.
 
+use std::collections::HashSet;
+
 use serde_json::Value;
 use sqlx::AnyConnection;
 
@@ -217,6 +219,18 @@ impl Store {
         let list = sqlx::query_as(sql::REBUILDABLE).bind(course).bind(lesson);
         let rows: Vec<RecordedRow> = readable(list, &self.pools.readers).await?;
         Ok(rows.into_iter().map(recorded).collect())
+    }
+
+    /// As [`Store::recorded`], of whoever is not erased: what they handed in can be judged again.
+    ///
+    /// Errors if the file cannot be read.
+    pub async fn judgeable(&self, course: &str, lesson: Option<&str>) -> Result<Vec<Recorded>, StoreError> {
+        let mut records = self.recorded(course, lesson).await?;
+        let list = sqlx::query_as(sql::ERASED_PEOPLE).bind(course);
+        let erased: Vec<(String,)> = list.fetch_all(&self.pools.readers).await?;
+        let erased: HashSet<String> = erased.into_iter().map(|(person,)| person).collect();
+        records.retain(|record| !erased.contains(&record.person));
+        Ok(records)
     }
 
     /// Verdicts in force on what was handed in to a course after a moment, the oldest first; what was handed in, often files, is not read.

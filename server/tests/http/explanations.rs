@@ -122,6 +122,27 @@ async fn who_teaches_reads_explanations_beside_predictions_and_gives_their_point
     assert_eq!(reached(&class, owner).await["points"], 0.0);
 }
 
+/// Said in the exercise class, for example.
+#[tokio::test]
+async fn points_count_where_nothing_was_handed_in_and_in_previews() {
+    let class = class().await;
+    let everybody = class.everybody().await;
+    let [student, grader, owner] = [1, 2, 4].map(|k| everybody[k].1.as_str());
+    let person = class.ask("GET", "/api/v1/record", student, None).await.json()["id"].clone();
+    assert_eq!(give(&class, grader, &person, json!(1.5), "told me").await.status, 201);
+    let stands = reached(&class, owner).await;
+    assert_eq!((&stands["points"], &stands["attempts"]), (&json!(1.5), &json!(0)));
+    let preview = format!("/api/v1/assignments/{LESSON}/preview");
+    let points = async |at: Value| {
+        let body = json!({"person": person, "at": at});
+        class.ask("POST", &preview, owner, Some(body)).await.json()["standing"]["points"].clone()
+    };
+    assert_eq!(points(Value::Null).await, json!(1.5));
+    assert_eq!(points(json!("2020-01-01T00:00:00Z")).await, json!(0.0), "that was before");
+    assert_eq!(give(&class, grader, &person, Value::Null, "").await.status, 201);
+    assert_eq!(reached(&class, owner).await, Value::Null);
+}
+
 #[tokio::test]
 async fn points_of_an_explanation_are_held_back_as_others_are() {
     let class = class().await;

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 use triad::policy::Moment;
+use triad::store::CLASS;
 
 use crate::Reply;
 use crate::class::{Class, class};
@@ -119,6 +120,21 @@ async fn results_that_are_held_back_are_absent_from_the_bytes() {
     assert_eq!(course.see("/api/v1/submissions").await.json()[0].get("earned"), None);
 }
 
+/// To be asked for more digits would tell that those are right, and use no attempt.
+#[tokio::test]
+async fn few_digits_tell_nothing_while_results_are_held_back() {
+    let course = course().await;
+    course.set(json!({"reveal": {"points": "when_released", "messages": "when_released"}})).await;
+    let right: f64 = course.right.parse().expect("a number");
+    let (near, far) = (course.submit(&format!("{right:.0e}")).await, course.submit("9e3").await);
+    assert_eq!((near.status.as_u16(), far.status.as_u16()), (201, 201), "{}", near.json());
+    assert_eq!(alike(&near), alike(&far));
+    let record = course.see("/api/v1/record").await.json();
+    assert_eq!(record["lessons"][0]["standing"]["attempts"], 2);
+    let rebuilt = triad::regrade::check(&course.class.app.store, CLASS).await.expect("rebuilds");
+    assert_eq!((rebuilt.same, rebuilt.changed.len()), (2, 0), "{rebuilt:?}");
+}
+
 #[tokio::test]
 async fn dates_attempts_and_extensions_bound_what_is_handed_in() {
     let course = course().await;
@@ -146,6 +162,39 @@ async fn dates_attempts_and_extensions_bound_what_is_handed_in() {
     course.submit("3.000").await.problem(409, "attempts-used");
     course.set(json!({"due": from_now(1), "closes": from_now(0)})).await.problem(422, "invalid-policy");
     course.set(json!({"due": "tomorrow"})).await.problem(422, "invalid-request");
+}
+
+/// Two teachers, or one twice: one gives time, the other an attempt.
+#[tokio::test]
+async fn an_extension_adds_to_the_one_before() {
+    let course = course().await;
+    let extension = format!("{POLICY}/extensions/{}", course.id);
+    let extend = async |mut body: Value| {
+        body["reason"] = json!("was ill");
+        course.class.ask("PUT", &extension, &course.owner, Some(body)).await
+    };
+    let given = async || {
+        let lesson = course.see("/api/v1/record").await.json()["lessons"][0].clone();
+        (lesson["extension"]["until"].is_string(), lesson["extension"]["attempts"].clone())
+    };
+    course.set(json!({"due": from_now(-2), "closes": from_now(-1), "most_attempts": 1})).await;
+    assert_eq!(extend(json!({"until": from_now(1)})).await.status, 204);
+    assert_eq!(extend(json!({"attempts": 2})).await.status, 204);
+    assert_eq!(given().await, (true, json!(2)));
+    // As the page's form sends it, with the number that it begins with.
+    assert_eq!(extend(json!({"until": from_now(2), "attempts": 0})).await.status, 204);
+    assert_eq!(given().await, (true, json!(2)));
+    assert_eq!(extend(json!({"attempts": null})).await.status, 204);
+    assert_eq!(given().await, (true, json!(0)));
+    assert_eq!(extend(json!({"until": null})).await.status, 204);
+    assert_eq!(given().await, (false, Value::Null));
+
+    // What everybody may is no extension.
+    extend(json!({"until": from_now(-3)})).await.problem(422, "invalid-extension");
+    extend(json!({"attempts": 0})).await.problem(422, "invalid-extension");
+    course.set(json!({})).await;
+    extend(json!({"attempts": 5})).await.problem(422, "invalid-extension");
+    assert_eq!(given().await, (false, Value::Null));
 }
 
 #[tokio::test]

@@ -116,3 +116,29 @@ async fn a_student_of_a_class_predicts_or_skips_before_the_run_goes_on() {
         assert_eq!(run(&own, what, student).await.status, 200);
     }
 }
+
+#[tokio::test]
+async fn a_prediction_is_made_while_the_exercise_can_be_handed_in() {
+    let class = class().await;
+    let everybody = class.everybody().await;
+    let [student, owner] = [1, 4].map(|k| everybody[k].1.as_str());
+    let (second, _) = class.join("Zoë").await;
+    let predict = async |who: &str, choice: Value| {
+        let body = json!({"prediction": "upper-end", "choice": choice});
+        class.ask("POST", "/api/v1/lessons/inverse-dynamics/predictions", who, Some(body)).await
+    };
+    let set = async |policy: Value| {
+        let reply = class.ask("PUT", "/api/v1/assignments/inverse-dynamics", owner, Some(policy)).await;
+        assert_eq!(reply.status, 204);
+    };
+    set(json!({"opens": "2100-01-01T00:00:00Z"})).await;
+    predict(student, json!("up")).await.problem(409, "not-open");
+    set(json!({})).await;
+    assert_eq!(predict(student, json!("up")).await.status, 201);
+    set(json!({"due": "2020-01-01T00:00:00Z", "closes": "2020-01-02T00:00:00Z"})).await;
+    predict(&second, json!("up")).await.problem(409, "closed");
+    // What was said before is told again, and the run does not wait for ever.
+    assert_eq!(predict(student, json!("up")).await.status, 200);
+    assert_eq!(predict(&second, Value::Null).await.status, 201);
+    assert_eq!(class.app.store.faults().await.expect("looks"), Vec::<String>::new());
+}

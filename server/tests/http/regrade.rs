@@ -38,10 +38,15 @@ pub(crate) fn course_with(end: &str, edit: impl FnOnce(String) -> String) -> Cou
 
 /// The course with one lesson whose tension at the bottom pays twice as much.
 fn mended() -> Course {
+    worth(6)
+}
+
+/// The course with one lesson whose tension at the bottom pays so many points.
+fn worth(points: u32) -> Course {
     course_with("simple-pendulum/exercise.toml", |exercise| {
         let (head, tail) = exercise.split_once("id = \"tension-bottom\"").expect("the question");
-        let changed =
-            format!("{head}id = \"tension-bottom\"{}", tail.replacen("points = 3", "points = 6", 1));
+        let new = format!("points = {points}");
+        let changed = format!("{head}id = \"tension-bottom\"{}", tail.replacen("points = 3", &new, 1));
         assert_ne!(changed, exercise);
         changed
     })
@@ -55,6 +60,37 @@ impl Class {
 
     async fn see(&self, who: &str, path: &str) -> Value {
         self.ask("GET", path, who, None).await.json()
+    }
+
+    /// Looks at a regrade, with what grades where a gradebook is shared.
+    async fn look(&self, owner: &str) -> Value {
+        let grader = Grader::new(Arc::clone(&self.app.store), Arc::default(), Arc::default(), 1, LEASE);
+        let grading = tokio::spawn(grader.run());
+        let seen = self.ask("POST", "/api/v1/assignments/simple-pendulum/regrades", owner, None).await;
+        grading.abort();
+        assert_eq!(seen.status, 200, "{}", seen.json());
+        seen.json()
+    }
+
+    async fn apply(&self, owner: &str, seen: &Value, choice: &str) {
+        let path = format!("/api/v1/regrades/{}/apply", seen["id"].as_str().expect("an id"));
+        let body = json!({"choice": choice, "reason": "mended"});
+        assert_eq!(self.ask("POST", &path, owner, Some(body)).await.status, 204);
+    }
+
+    async fn set(&self, owner: &str, policy: Value) {
+        let reply = self.ask("PUT", "/api/v1/assignments/simple-pendulum", owner, Some(policy)).await;
+        assert_eq!(reply.status, 204);
+    }
+
+    /// Points by name.
+    async fn points(&self, owner: &str) -> BTreeMap<String, f64> {
+        let table = self.see(owner, "/api/v1/standings").await;
+        let of = |row: &Value| {
+            let points = row["lessons"]["simple-pendulum"]["points"].as_f64().unwrap_or(f64::NAN);
+            (row["name"].as_str().expect("a name").to_owned(), points)
+        };
+        table["students"].as_array().expect("rows").iter().map(of).collect()
     }
 
     async fn tension(&self, who: &str) -> String {
@@ -170,4 +206,87 @@ async fn a_regrade_is_looked_at_applied_seen_and_taken_back() {
     assert!(rebuilt.changed.is_empty(), "{rebuilt:?}");
     grading.abort();
     assert_eq!(class.app.store.faults().await.expect("looks"), Vec::<String>::new());
+}
+
+/// Whether an answer was told is a fact of the moment in which something was handed in, whatever is set since.
+#[tokio::test]
+async fn a_regrade_goes_by_what_was_told_then() {
+    let class = class().await;
+    let (owner, _) = class.enter("/api/v1/setup", json!({"token": class.setup, "name": "Prof"})).await;
+    let ((ada, _), (bob, _)) = (class.join("Ada").await, class.join("Bob").await);
+    let never = json!({"reveal": {"reference": "never"}});
+    class.set(&owner, never.clone()).await;
+    let wrong: Vec<String> = (1..7).map(|k| format!("{k}.000")).collect();
+    for value in &wrong {
+        class.submit(&ada, value).await;
+    }
+    assert_eq!(class.submit(&ada, &class.tension(&ada).await).await["earned"], 3.0);
+    class.set(&owner, json!({})).await;
+    for value in &wrong {
+        class.submit(&bob, value).await;
+    }
+    assert_eq!(class.submit(&bob, &class.tension(&bob).await).await["earned"], 0.0, "he was told it");
+    for policy in [json!({}), never.clone()] {
+        class.set(&owner, policy).await;
+        let same = class.look(&owner).await;
+        assert_eq!((&same["counts"]["same"], &same["people"]), (&json!(14), &json!([])), "{same}");
+        assert_eq!(same["of_other_versions"], 0, "{same}");
+    }
+    // It was told to him, so that it earns nothing now either.
+    assert_eq!(class.submit(&bob, &format!("{}0", class.tension(&bob).await)).await["earned"], 0.0);
+
+    let class = class.again(mended().into()).await;
+    let seen = class.look(&owner).await;
+    class.apply(&owner, &seen, "replace").await;
+    assert_eq!(class.points(&owner).await, [("Ada".to_owned(), 6.0), ("Bob".to_owned(), 0.0)].into());
+    let rebuilt = triad::regrade::check(&class.app.store, CLASS).await.expect("rebuilds");
+    assert_eq!((rebuilt.changed.len(), rebuilt.same), (0, 30), "{rebuilt:?}");
+    assert_eq!(class.app.store.faults().await.expect("looks"), Vec::<String>::new());
+}
+
+#[tokio::test]
+async fn who_is_erased_keeps_the_points_in_a_regrade() {
+    let class = class().await;
+    let (owner, _) = class.enter("/api/v1/setup", json!({"token": class.setup, "name": "Prof"})).await;
+    let ((ada, told), (bob, _)) = (class.join("Ada").await, class.join("Bob").await);
+    for who in [&ada, &bob] {
+        class.submit(who, &class.tension(who).await).await;
+    }
+    let erase = format!("/api/v1/people/{}/erase", told["person"]["id"].as_str().expect("an id"));
+    let reason = json!({"reason": "asked for it"});
+    assert_eq!(class.ask("POST", &erase, &owner, Some(reason)).await.status, 204);
+    let rebuilt = triad::regrade::check(&class.app.store, CLASS).await.expect("rebuilds");
+    assert_eq!((rebuilt.same, rebuilt.changed.len()), (1, 0), "{rebuilt:?}");
+    let same = class.look(&owner).await;
+    assert_eq!((&same["submissions"], &same["people"]), (&json!(1), &json!([])), "{same}");
+
+    let class = class.again(mended().into()).await;
+    let seen = class.look(&owner).await;
+    class.apply(&owner, &seen, "replace").await;
+    let points: Vec<f64> = class.points(&owner).await.into_values().collect();
+    assert_eq!(points, [6.0, 3.0], "Bob, and who was erased");
+}
+
+/// What a verdict earns may count later: a decision is taken back, more time is given.
+#[tokio::test]
+async fn better_lowers_no_verdict_that_does_not_count_now() {
+    let class = class().await;
+    let (owner, _) = class.enter("/api/v1/setup", json!({"token": class.setup, "name": "Prof"})).await;
+    let ((ada, told), (bob, _)) = (class.join("Ada").await, class.join("Bob").await);
+    let path = format!("/api/v1/people/{}/decisions", told["person"]["id"].as_str().expect("an id"));
+    class.submit(&ada, &class.tension(&ada).await).await;
+    let decide = async |points: Value| {
+        let body = json!({"lesson": "simple-pendulum", "points": points, "reason": "a bonus"});
+        assert_eq!(class.ask("POST", &path, &owner, Some(body)).await.status, 201);
+    };
+    decide(json!(4)).await;
+    class.submit(&bob, &class.tension(&bob).await).await;
+    class.set(&owner, json!({"due": Moment::now().after(-3_600_000)})).await;
+    let again = class.again(worth(1).into()).await;
+    let seen = again.look(&owner).await;
+    assert!(seen["people"].as_array().expect("people").iter().all(|one| one["before"] == one["after"]));
+    again.apply(&owner, &seen, "better").await;
+    decide(Value::Null).await;
+    again.set(&owner, json!({})).await;
+    assert_eq!(again.points(&owner).await, [("Ada".to_owned(), 3.0), ("Bob".to_owned(), 3.0)].into());
 }

@@ -4,10 +4,7 @@ export type paths = Record<string, never>;
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
-        /**
-         * @description Estimated errors of a state, each the largest over all bodies or joints: what the run has collected since its start, or since
-         *     its numbers were changed.
-         */
+        /** @description Estimated errors of a state, each the largest over all bodies or joints: what the run has collected since its start. */
         Accuracy: {
             /**
              * Format: double
@@ -1058,9 +1055,9 @@ export interface components {
             csv: string;
             /** @description Columns of lessons that were found. */
             found: string[];
-            /** @description Names here that are not in the table. */
+            /** @description Names here that are not in the table, or more than once. */
             missing: string[];
-            /** @description Names in the table whom nobody here has. */
+            /** @description Names in the table whom nobody here has, or that stand there more than once: whose grade it is nobody knows. */
             unknown: string[];
             /** @description Lessons with grades that have no column: make an assignment of that title in Canvas, and export again. */
             without_column: string[];
@@ -2462,20 +2459,16 @@ export interface components {
              */
             fit?: boolean;
         };
-        /** @description More time or attempts for one person. */
+        /** @description More time or attempts for one person. What is left out stays as it was. */
         NewExtension: {
             /**
              * Format: uint32
-             * @description Attempts beyond those of everybody.
-             * @default 0
+             * @description Attempts beyond those of everybody; 0 leaves them as they were, null takes them away.
              */
-            attempts?: number;
+            attempts?: number | null;
             /** @description Why. */
             reason: string;
-            /**
-             * @description Until when it counts in full; late steps and the end follow at the same distance.
-             * @default null
-             */
+            /** @description Until when it counts in full; late steps and the end follow at the same distance. Null takes it away. */
             until?: string | null;
         };
         /** @description The session that a lecture shows. */

@@ -7,7 +7,7 @@ use axum::Json as Answer;
 use axum::extract::State;
 use axum::http::StatusCode;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
 use triad_lessons::Lesson;
 use utoipa_axum::router::OpenApiRouter;
@@ -20,8 +20,8 @@ use crate::api::lessons;
 use crate::api::lessons::told::{self, GradedSubmission};
 use crate::app::App;
 use crate::blocking;
-use crate::grades::{Book, Entry, case};
-use crate::policy::{Extension, InvalidPolicy, Moment, Policy, Standing, standing};
+use crate::grades::{Book, Entry, stands};
+use crate::policy::{Extension, InvalidPolicy, Moment, Policy, Standing};
 use crate::problem::Problem;
 use crate::store::{Assignment, CLASS, Query};
 
@@ -172,27 +172,81 @@ async fn release(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// More time or attempts for one person.
+/// More time or attempts for one person. What is left out stays as it was.
+#[allow(clippy::option_option)] // null says something else than nothing
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct NewExtension {
-    /// Until when it counts in full; late steps and the end follow at the same distance.
-    #[serde(default)]
-    until: Option<Moment>,
-    /// Attempts beyond those of everybody.
-    #[serde(default)]
-    attempts: u32,
+    /// Until when it counts in full; late steps and the end follow at the same distance. Null takes it away.
+    #[serde(default, deserialize_with = "given")]
+    #[schemars(!default)]
+    until: Option<Option<Moment>>,
+    /// Attempts beyond those of everybody; 0 leaves them as they were, null takes them away.
+    #[serde(default, deserialize_with = "given")]
+    #[schemars(!default)]
+    attempts: Option<Option<u32>>,
     /// Why.
     reason: String,
 }
 
-/// Allow somebody more time or attempts at a lesson.
+/// A value that is there, be it null.
+fn given<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Option<T>, D::Error> {
+    T::deserialize(from).map(Some)
+}
+
+impl NewExtension {
+    /// What is allowed from then on, after what was allowed `before`.
+    ///
+    /// Errors if it allows nothing beyond what everybody may.
+    fn after(
+        self,
+        before: Option<Extension>,
+        policy: &Policy,
+        by: &str,
+    ) -> Result<Option<Extension>, Problem> {
+        let Self { until, attempts, reason } = self;
+        let (by, at) = (by.to_owned(), Moment::now());
+        let attempts = attempts.filter(|attempts| *attempts != Some(0));
+        let (more, takes) =
+            ((until.flatten(), attempts.flatten()), [until == Some(None), attempts == Some(None)]);
+        let alone = Extension { until: more.0, attempts: more.1.unwrap_or(0), reason, by, at };
+        let refused = |wrong: &str, hint: &str| {
+            let problem = Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "invalid-extension", wrong, hint);
+            Err(problem.at("/until", wrong))
+        };
+        if more == (None, None) && takes == [false; 2] {
+            return refused(
+                "it allows neither more time nor more attempts",
+                "give a date, or attempts, or both",
+            );
+        }
+        let is_as_for_all = |given: &Extension| {
+            policy.times(Some(given)) == policy.times(None)
+                && policy.attempts(Some(given)) == policy.attempts(None)
+        };
+        if more != (None, None) && is_as_for_all(&alone) {
+            return refused(
+                "it allows nothing that is not allowed to everybody",
+                "give a date after the due date, or attempts where they are bounded",
+            );
+        }
+        let (kept_until, kept_attempts) = before.map_or((None, 0), |before| (before.until, before.attempts));
+        let next = Extension {
+            until: until.unwrap_or(kept_until),
+            attempts: attempts.map_or(kept_attempts, Option::unwrap_or_default),
+            ..alone
+        };
+        Ok(Some(next).filter(|next| next.until.is_some() || next.attempts > 0))
+    }
+}
+
+/// Allow somebody more time or attempts at a lesson. What is left out stays as it was, null takes it away.
 #[utoipa::path(put, path = "/assignments/{slug}/extensions/{person}", operation_id = "extend", tag = "class",
     params(("slug" = String, Path), ("person" = String, Path)),
     request_body(content = ref(of::<NewExtension>()), example = json!({"until": "2026-12-08T18:00:00Z", "reason": "was ill"})), responses(
     (status = 204, description = "It is allowed"),
     (status = 404, description = "No such lesson or person", body = ref(PROBLEM)),
-    (status = 422, description = "No reason, or nothing allowed", body = ref(PROBLEM))))]
+    (status = 422, description = "No reason, or nothing allowed that is not allowed to everybody", body = ref(PROBLEM))))]
 async fn extend(
     State(app): State<App>,
     PathParameters((slug, person)): PathParameters<(String, String)>,
@@ -200,17 +254,10 @@ async fn extend(
     Json(new): Json<NewExtension>,
 ) -> Result<StatusCode, Problem> {
     let slug = lessons::find(&app, &slug)?.slug.clone();
-    let reason = text_of(&new.reason, "/reason")?;
-    if new.until.is_none() && new.attempts == 0 {
-        let wrong = "it allows neither more time nor more attempts";
-        let hint = "give a date, or attempts, or both";
-        let problem = Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "invalid-extension", wrong, hint);
-        return Err(problem.at("/until", wrong));
-    }
+    let new = NewExtension { reason: text_of(&new.reason, "/reason")?, ..new };
     let actor = caller.member()?;
-    let given =
-        Extension { until: new.until, attempts: new.attempts, reason, by: actor.name, at: Moment::now() };
-    app.store.extend(CLASS, &actor.id, &person, &slug, Some(&given)).await?;
+    let change = |policy: &Policy, before| new.after(before, policy, &actor.name);
+    app.store.extend(CLASS, &actor.id, &person, &slug, change).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -225,7 +272,7 @@ async fn take_back(
     caller: Caller,
 ) -> Result<StatusCode, Problem> {
     let slug = lessons::find(&app, &slug)?.slug.clone();
-    app.store.extend(CLASS, &caller.member()?.id, &person, &slug, None).await?;
+    app.store.extend(CLASS, &caller.member()?.id, &person, &slug, |_, _| Ok::<_, Problem>(None)).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -273,8 +320,8 @@ async fn preview(
     }
     let person = wanted.person.unwrap_or_default();
     let book = Book::open(&app.store, CLASS, Some(&person), Some(&lesson.slug)).await?;
-    let entry = book.of(&person, &lesson.slug).cloned().unwrap_or_else(Entry::default);
-    let standing = standing(&case(&assignment, &entry, &lesson), at);
+    let entry = book.of(&person, &lesson.slug).cloned().unwrap_or_else(Entry::default).by(at);
+    let standing = stands(&assignment, &entry, &lesson, at);
     let newest = entry.handed.iter().filter(|one| one.at <= at).max_by_key(|one| (one.at, one.n));
     let told = match newest {
         Some(newest) => Some(told_of(&app, &lesson, &assignment, &standing, (&person, &newest.id)).await?),

@@ -84,6 +84,7 @@ struct GivenPredictions(Vec<GivenPrediction>);
     (status = 201, description = "Kept; tells what comes true", body = ref(of::<GivenPrediction>())),
     (status = 200, description = "It was made before: tells that one", body = ref(of::<GivenPrediction>())),
     (status = 404, description = "No such lesson", body = ref(PROBLEM)),
+    (status = 409, description = "Not open, or closed: it can be skipped", body = ref(PROBLEM)),
     (status = 422, description = "No such prediction or option, or no name", body = ref(PROBLEM))))]
 async fn predict(
     State(app): State<App>,

@@ -114,34 +114,38 @@ impl Store {
         Ok(rows.into_iter().map(read).collect())
     }
 
-    /// Allows somebody more time or attempts at a lesson; `None` takes it back. `given.by` and `given.at` are the actor and now.
+    /// Allows somebody more time or attempts at a lesson, as follows from the policy and what was allowed before; `None` takes it
+    /// back. Its `by` and `at` are the actor and now.
     ///
-    /// Errors if there is no such person or it cannot be written.
-    pub async fn extend(
+    /// Errors if there is no such person, `change` refuses it, or it cannot be written.
+    pub async fn extend<E: From<StoreError>>(
         &self,
         course: &str,
         actor: &str,
         person: &str,
         lesson: &str,
-        given: Option<&Extension>,
-    ) -> Result<(), StoreError> {
+        change: impl FnOnce(&Policy, Option<Extension>) -> Result<Option<Extension>, E>,
+    ) -> Result<(), E> {
         let at = now();
+        let mut transaction = self.write().await?;
+        log::hold(&mut transaction, course).await?;
+        known(&mut transaction, course, person).await?;
+        let Assignment { id, policy, .. } = ensured(&mut transaction, course, lesson).await?;
+        let given = change(&policy, extension_of(&mut transaction, &id, person).await?)?;
+        let given = given.as_ref();
         let detail = given.map(|g| (lesson, g.until, g.attempts, &g.reason));
         let detail = serde_json::json!([lesson, detail]).to_string();
         let what = if given.is_some() { "extended" } else { "took back the extension of" };
-        let mut transaction = self.write().await?;
         log::append(&mut transaction, course, at, &Event { actor, what, subject: person, detail: &detail })
             .await?;
-        known(&mut transaction, course, person).await?;
-        let id = ensured(&mut transaction, course, lesson).await?.id;
         let remove = sqlx::query(sql::REMOVE_EXTENSION).bind(&id).bind(person);
-        remove.execute(&mut *transaction).await?;
+        remove.execute(&mut *transaction).await.map_err(StoreError::from)?;
         if let Some(given) = given {
             let add = sqlx::query(sql::ADD_EXTENSION).bind(&id).bind(person).bind(given.until.map(|at| at.0));
             let add = add.bind(i64::from(given.attempts)).bind(&given.reason).bind(actor).bind(at);
-            add.execute(&mut *transaction).await?;
+            add.execute(&mut *transaction).await.map_err(StoreError::from)?;
         }
-        transaction.commit().await
+        Ok(transaction.commit().await?)
     }
 }
 

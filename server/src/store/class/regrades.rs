@@ -25,9 +25,10 @@ pub struct NewRegrade {
     pub choice: &'static str,
     /// Why: students see it.
     pub reason: String,
-    /// The lesson that graded, as a bundle.
-    pub bundle: String,
-    /// How many verdicts the course's assignment had when it was computed: if there are more, it is out of date.
+    /// The lessons that graded, as bundles: first as it is assigned now.
+    pub bundles: Vec<String>,
+    /// How many verdicts the course's assignment had when it was computed, on whoever is not erased: if there are others, it is out
+    /// of date.
     pub verdicts: usize,
     /// The new verdicts, in the order in which the submissions came.
     pub new: Vec<NewVerdict>,
@@ -40,6 +41,8 @@ pub struct NewRegrade {
 pub struct NewVerdict {
     /// The submission.
     pub submission: String,
+    /// SHA-256 of the lesson that graded it.
+    pub lesson_sha256: String,
     /// What is told, as it is kept.
     pub body: String,
 }
@@ -102,14 +105,17 @@ impl Store {
         let detail = serde_json::json!([id, new.choice, new.reason, new.new.len()]).to_string();
         let event = Event { actor: &new.actor, what: "regrade of", subject: &new.lesson, detail: &detail };
         let n = log::append(&mut transaction, &new.course, at, &event).await?;
-        let count = sqlx::query_as(sql::VERDICT_COUNT).bind(&assignment).fetch_one(&mut *transaction);
+        let count = sqlx::query_as(sql::VERDICT_COUNT).bind(&assignment).bind(&new.course);
+        let count = count.fetch_one(&mut *transaction);
         let (verdicts,): (i64,) = count.await?;
         if usize::try_from(verdicts) != Ok(new.verdicts) {
             return Err(StoreError::OutOfDate);
         }
-        let lesson = sha256(&new.bundle);
-        let add = sqlx::query(sql::ADD_LESSON).bind(&lesson).bind(&new.lesson).bind(&new.bundle);
-        add.bind(at).execute(&mut *transaction).await?;
+        for bundle in &new.bundles {
+            let add = sqlx::query(sql::ADD_LESSON).bind(sha256(bundle)).bind(&new.lesson).bind(bundle);
+            add.bind(at).execute(&mut *transaction).await?;
+        }
+        let lesson = new.bundles.first().map(|bundle| sha256(bundle)).unwrap_or_default();
         let add = sqlx::query(sql::ADD_REGRADE).bind(&id).bind(&new.course).bind(n).bind(&assignment);
         let add = add.bind(new.choice).bind(&new.reason).bind(&lesson).bind(&new.actor).bind(at);
         let verdicts = i64::try_from(new.new.len()).unwrap_or(i64::MAX);
@@ -122,7 +128,7 @@ impl Store {
                 ..VerdictRow::first(
                     &verdict.submission,
                     verdict.body.clone(),
-                    lesson.clone(),
+                    verdict.lesson_sha256.clone(),
                     crate::BUILD,
                     at,
                 )
