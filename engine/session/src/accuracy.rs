@@ -113,8 +113,8 @@ pub(crate) struct Since {
 }
 
 impl Since {
-    /// The same where another simulation goes on with other numbers from the state of this one: what was not known of its errors is not
-    /// known then either.
+    /// What is known where another simulation goes on with other numbers from the state of this one: what was not known of its errors is
+    /// not known then either.
     pub fn change(&self, simulation: &Simulation, forces: bool) -> Self {
         let Self { taken_up: Some(mut known), .. } = self.taken_up(simulation, forces) else {
             return Self::default();
