@@ -41,8 +41,16 @@ async function languages() {
     // What does not fit and is not cut off reaches into its neighbour.
     return [Math.round(left), Math.round(left + (getComputedStyle(one).overflowX === "hidden" ? width : Math.max(width, one.scrollWidth)))];
   }));
-  const apart = (boxes) => boxes.every(([left, right], k) => left >= (boxes[k - 1]?.[1] ?? 0) && right <= 390);
-  assert(apart(await header()), `German on a phone: ${JSON.stringify(await header())}`);
+  const apart = (boxes, width) => boxes.every(([left, right], k) => left >= (boxes[k - 1]?.[1] ?? 0) && right <= width);
+  const cut = () => page.locator(".header nav, .header button").evaluateAll((all) => all.filter((one) => one.scrollWidth > one.clientWidth).map((one) => one.innerText));
+  const fits = async (language) => {
+    for (const width of [360, 390]) {
+      await page.setViewportSize({ width, height: 844 });
+      assert(apart(await header(), width), `${language} on a phone of ${width}: ${JSON.stringify(await header())}`);
+      assert.deepEqual(await cut(), [], `${language} on a phone of ${width}: nothing is cut`);
+    }
+  };
+  await fits("German");
   await noFaults("the first page in German");
   await page.screenshot({ path: join(pictures, "home-german.png") });
   await page.setViewportSize({ width: 320, height: 256 });
@@ -52,7 +60,7 @@ async function languages() {
   await page.getByRole("dialog").getByRole("button", { name: "English" }).click();
   await page.getByRole("link", { name: "Start with the first lesson" }).waitFor();
   assert.equal(await page.locator("html").getAttribute("lang"), "en");
-  assert(apart(await header()), `English on a phone: ${JSON.stringify(await header())}`);
+  await fits("English");
   await page.reload();
   await page.getByRole("link", { name: "Start with the first lesson" }).waitFor();
   say("it speaks two languages, and remembers which");

@@ -131,6 +131,11 @@ fn picture_numbers_and_text_share_the_window_and_robots_are_dropped_on_it() {
 }
 
 #[test]
+fn a_reload_and_a_second_tab_lose_nothing() {
+    run("kept.mjs", &[]);
+}
+
+#[test]
 fn a_room_keeps_its_name_for_the_term_and_who_is_early_waits_in_it() {
     run("named-room.mjs", &[]);
 }

@@ -33,11 +33,14 @@ impl Refusal {
 
     /// A name that does not exist, with the one that was probably meant.
     pub fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Self {
-        let hint = nearest_name(name, known.clone()).map_or_else(
-            || format!("there are {}", known.collect::<Vec<_>>().join(", ")),
-            |near| format!("did you mean \"{near}\"?"),
-        );
-        Self::new(&format!("unknown-{what}"), format!("there is no {what} \"{name}\""), hint)
+        let all = known.clone().collect::<Vec<_>>().join(", ");
+        let hint = match nearest_name(name, known) {
+            Some(near) => format!("did you mean \"{near}\"?"),
+            None if all.is_empty() => "there is none".to_owned(),
+            None => format!("there are {all}"),
+        };
+        let code = format!("unknown-{}", what.replace(' ', "-"));
+        Self::new(&code, format!("there is no {what} \"{name}\""), hint)
     }
 
     /// A word that an option does not know.

@@ -143,6 +143,18 @@ def test_pictures_are_svg_and_move():
     assert moving.count("<animate ") > len(r.bodies) > still.count("<animate ")
 
 
+def test_columns_are_looked_up_as_in_a_dict():
+    r = triad.run("simple-pendulum", until=0.1, outputs=["energy", "joints"])
+    s = triad.sweep("simple-pendulum", {"mass": triad.grid(1, 2, 3)}, until=0.1, outputs="energy", estimate=False)
+    assert list(r) == r.keys() == r.columns and s.keys() == list(s) == ["mass", "energy"]
+    for found, rows in ((r, len(r)), (s, 3)):
+        assert "energy" in found and "energi" not in found and 0 not in found
+        assert all(column.shape == (rows,) for column in dict(found).values())
+    assert np.array_equal(dict(r)["pin.angle"], r["pin.angle"])
+    with pytest.raises(triad.TriadError, match="there is no column 0"):
+        r[0]
+
+
 def test_tables_become_data_frames():
     r = triad.run("simple-pendulum", until=0.1, every=0.05)
     frame = r.to_pandas()

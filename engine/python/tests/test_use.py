@@ -49,6 +49,106 @@ def test_errors_say_what_where_and_what_to_try():
         triad.run(5)
 
 
+WRONG = [
+    ("until", "1", "a number"),
+    ("until", True, "a number"),
+    ("every", [0.1], "a number"),
+    ("tolerance", 1j, "a number"),
+    ("step", "0.1", "a number"),
+    ("integrator", 3, "a text"),
+    ("treatment", ["projection"], "a text"),
+    ("coordinates", 12, "a text"),
+    ("outputs", ["energy", 3], "a text or a list of them"),
+    ("no_skip", 3, "a text or a list of them"),
+    ("estimate", "no", "True or False"),
+    ("verify", 1, "True or False"),
+    ("most_steps", 1.5, "a whole number"),
+    ("most_seconds", "1", "a number"),
+    ("progress", 3, "a function"),
+]
+
+
+@pytest.mark.parametrize("name, given, wanted", WRONG)
+def test_an_option_of_the_wrong_kind_is_told_by_its_name(name, given, wanted):
+    with pytest.raises(triad.TriadError) as found:
+        triad.run("simple-pendulum", **{name: given})
+    assert found.value.what.startswith(f"{name} is {given!r}") and found.value.hint == f"give {name} {wanted}"
+    assert found.value.code == "not-understood"
+
+
+def test_each_option_is_tried_with_another_kind():
+    options = inspect.signature(triad.run).parameters
+    assert {name for name, _, _ in WRONG} == set(options) - {"scene"}
+
+
+def test_what_is_asked_of_sweeps_systems_and_grading_is_told_by_its_name():
+    vary = {"mass": triad.grid(1, 2, 3)}
+    system, r = triad.System("simple-pendulum"), triad.run("simple-pendulum", until=0.1)
+    for told, action in [
+        ("samples is 1.5", lambda: triad.sweep("simple-pendulum", vary, samples=1.5)),
+        ("seed is -2", lambda: triad.sweep("simple-pendulum", vary, seed=-2)),
+        ("threads is 'all'", lambda: triad.sweep("simple-pendulum", vary, threads="all")),
+        ("until is '3'", lambda: triad.sweep("simple-pendulum", vary, until="3")),
+        ("vary is ", lambda: triad.sweep("simple-pendulum", [("mass", 1)])),
+        ("the name 3 in vary", lambda: triad.sweep("simple-pendulum", {3: [1, 2]})),
+        ("mass cannot vary over 3", lambda: triad.sweep("simple-pendulum", {"mass": 3})),
+        ("q is ", lambda: system.phi(system.q0 + 1j)),
+        ("v is 'still'", lambda: system.gamma(system.q0, "still")),
+        ("t is nan", lambda: system.phi(system.q0, float("nan"))),
+        ("coordinates is 12", lambda: triad.System("simple-pendulum", coordinates=12)),
+        ("joint is 0", lambda: r.reactions(0)),
+        ("no body 0", lambda: r.body(0)),
+        ("about is 3", lambda: triad.modes("simple-pendulum", about=3)),
+        ("keep is 3", lambda: triad.assemble("simple-pendulum", keep=3)),
+        ("lesson is 3", lambda: triad.grade(3, {})),
+        ("student is 3", lambda: triad.grade("simple-pendulum", {}, student=3)),
+        ("answers is ", lambda: triad.grade("simple-pendulum", [1])),
+    ]:
+        with pytest.raises(triad.TriadError) as found:
+            action()
+        assert told in found.value.what and found.value.hint and " " not in found.value.code, told
+
+
+def test_a_run_is_not_given_less_than_a_moment():
+    for name, given in (("most_seconds", -1), ("most_seconds", 0.0), ("most_steps", -1)):
+        with pytest.raises(triad.TriadError, match=f"{name} is {given:g}") as found:
+            triad.run("simple-pendulum", **{name: given})
+        assert found.value.code == "out-of-range"
+    assert len(triad.run("simple-pendulum", until=0.1, most_seconds=60)) == 11
+
+
+def test_numbers_of_scenes_and_answers_that_are_not_finite_are_told_with_their_place():
+    scene = triad.scene("simple-pendulum")
+    scene["bodies"][0]["mass"] = float("nan")
+    for given in (scene, json.dumps(scene)):
+        with pytest.raises(triad.TriadError, match="nan is no finite number") as found:
+            triad.check(given)
+        assert (found.value.code, found.value.pointer) == ("not-finite", "/bodies/0/mass")
+    scene["bodies"][0]["mass"] = 1
+    scene["gravity"] = np.array([0.0, -np.inf, 0.0])
+    with pytest.raises(triad.TriadError, match="-inf is no finite number") as found:
+        triad.run(scene)
+    assert found.value.pointer == "/gravity/1"
+    scene.update(gravity=[0, 0, 0], title="NaN and Infinity")
+    assert triad.run(scene, until=0.1).scene["title"] == "NaN and Infinity"
+    with pytest.raises(triad.TriadError) as found:
+        triad.grade("simple-pendulum", {"tension": np.float64("nan")})
+    assert found.value.pointer == "/answers/tension/value"
+
+
+def test_names_that_do_not_exist_have_a_code_and_a_hint():
+    r = triad.run("simple-pendulum", until=0.1)
+    for code, hint, action in [
+        ("unknown-marker", "the scene has none", lambda: r.marker("tip")),
+        ("unknown-joint-or-driver", "there are pin", lambda: r.reactions("x")),
+        ("unknown-place-for-modes", "there are equilibrium, start, steady", lambda: triad.modes("simple-pendulum", about="x")),
+        ("unknown-word-of-no_skip", "there are planar", lambda: triad.run("simple-pendulum", no_skip="x")),
+    ]:
+        with pytest.raises(triad.TriadError) as found:
+            action()
+        assert found.value.code == code and found.value.hint.startswith(hint)
+
+
 def test_what_was_reached_before_an_error_is_kept():
     with pytest.raises(triad.TriadError) as found:
         triad.run("n-four-bar:2", until=5, every=0.1, most_steps=4)

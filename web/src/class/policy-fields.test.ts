@@ -15,6 +15,7 @@ it("one number may have a decimal comma", () => {
   for (const text of ["87,5", "87.5", "0", " 100 "]) expect(wrongNumber(text, share)).toBeUndefined();
   for (const text of ["", "875", "87,5,1", "-1", "half"])
     expect(wrongNumber(text, share)).toBe("Write a number from 0 to 100.");
+  expect(wrongNumber("1,500", { low: 0 })).toMatch(/two ways/);
   const attempts = { low: 1, whole: true, empty: true } as const;
   for (const text of ["", "3"]) expect(wrongNumber(text, attempts)).toBeUndefined();
   for (const text of ["2,5", "0", "x"])

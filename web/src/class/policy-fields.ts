@@ -1,7 +1,7 @@
 // Fields of a policy: moments, numbers and shares, as they are shown and as they are typed.
 
 import { h } from "../core/dom";
-import { num, typedNumber } from "../core/format";
+import { num, typedNumber, unclearComma } from "../core/format";
 import { t } from "../core/texts";
 
 /** A moment as a field of local time has it, with seconds where there are any. */
@@ -32,6 +32,8 @@ export function wrongNumber(text: string, { low, high, whole, empty }: Takes): s
   if (empty && text.trim() === "") return undefined;
   const value = typedNumber(text);
   if (value >= low && value <= (high ?? Infinity) && (!whole || Number.isInteger(value))) return undefined;
+  const unclear = unclearComma(text);
+  if (unclear !== undefined) return unclear;
   return high === undefined
     ? t("Write a whole number, {low} or more.", { low })
     : t("Write a number from {low} to {high}.", { low: num(low), high: num(high) });

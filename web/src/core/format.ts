@@ -1,5 +1,5 @@
 // Numbers as text. One place, so that the page never shows two roundings of one value.
-import { locale, t } from "./texts";
+import { locale, pointPartsThousands, t } from "./texts";
 
 /** Up to `digits` significant digits; scientific outside 1e-3 … 1e6; a true minus sign. */
 export function num(value: number, digits = 6): string {
@@ -7,7 +7,7 @@ export function num(value: number, digits = 6): string {
   if (value === 0) return "0";
   const size = Math.abs(value);
   if (size < 1e-3 || size >= 1e6) return sci(value, Math.min(digits, 4));
-  return minus(Number(value.toPrecision(digits)).toString());
+  return written(Number(value.toPrecision(digits)).toString());
 }
 
 /** Scientific notation such as 1.23e−9. */
@@ -23,7 +23,7 @@ export function fixed(value: number, decimals = 4): string {
   if (value !== 0 && (Math.abs(value) >= 1e7 || Math.abs(value) < 0.5 * 10 ** -decimals)) {
     return sci(value, 3);
   }
-  return minus(value.toFixed(decimals));
+  return fixedPlain(value, decimals);
 }
 
 export function seconds(value: number, decimals = 3): string {
@@ -31,11 +31,20 @@ export function seconds(value: number, decimals = 3): string {
 }
 
 export function fixedPlain(value: number, decimals: number): string {
-  return minus(value.toFixed(decimals));
+  return minus(value.toFixed(decimals === 3 && pointPartsThousands() ? 4 : decimals));
 }
 
-/** A number as somebody types it, with a comma or a true minus sign too; NaN where it is none. */
+/** What is wrong with a comma that may part thousands or decimals, as in 1,500; nothing where it is clear. Answers are read likewise. */
+export function unclearComma(text: string): string | undefined {
+  const found = /^\s*[+−-]?\s*([1-9](?:\d{1,2},\d{3}|,\d{3}(?!\s*e)))(?![\d,.])/i.exec(text)?.[1];
+  return found === undefined
+    ? undefined
+    : t("The comma in “{text}” can be read in two ways: write the decimal sign as a point.", { text: found });
+}
+
+/** A number as somebody types it, with a comma or a true minus sign too; NaN where it is none, or may be two. */
 export function typedNumber(text: string): number {
+  if (unclearComma(text) !== undefined) return NaN;
   const plain = text.trim().replace(",", ".").replace("−", "-");
   return plain === "" ? NaN : Number(plain);
 }
@@ -55,6 +64,12 @@ export function typedIn(unit: string, text: string): number {
 
 export function points(value: number): string {
   return minus(Number(value.toFixed(2)).toString());
+}
+
+/** The page writes decimals behind a point in all its languages, as scenes and formulas have it: never three alone where that parts thousands. */
+function written(text: string): string {
+  const unclear = pointPartsThousands() && /^-?[1-9]\d{0,2}\.\d{3}$/.test(text);
+  return minus(unclear ? `${text}0` : text);
 }
 
 function minus(text: string): string {

@@ -12,6 +12,8 @@ type Key =
   | `tab:${string}`
   | "scene-draft"
   | `scene-draft:${string}`
+  | "scene-aside"
+  | `scene-aside:${string}`
   | `said:${string}`
   | `slides:${string}`
   | "place"
@@ -46,6 +48,15 @@ export function remember(key: Key, value: string | null): void {
   } catch {
     // Nothing is remembered; the page works all the same.
   }
+}
+
+/** Calls back when another tab remembers something else under a name, until the returned function is called. */
+export function onRemembered(key: Key, heard: () => void): () => void {
+  const listener = (event: StorageEvent): void => {
+    if (event.key === `triad:${key}`) heard();
+  };
+  addEventListener("storage", listener);
+  return () => removeEventListener("storage", listener);
 }
 
 /** The name of who is signed in, empty for nobody; undefined where there are no accounts and a name is typed. */

@@ -17,6 +17,8 @@ export type Language = keyof typeof LANGUAGES;
 const known = (tag: string | null): tag is Language => tag !== null && tag in LANGUAGES;
 
 let catalogue: Partial<Record<string, string>> = {};
+/** The language that the page speaks: English until another one's words are there. */
+let spoken: Language = "en";
 
 /** The language of this browser's page: as chosen, else the first that its reader understands, else English. */
 export function language(): Language {
@@ -25,6 +27,9 @@ export function language(): Language {
   const understood = navigator.languages.map((tag) => tag.slice(0, 2).toLowerCase());
   return understood.find(known) ?? "en";
 }
+
+/** Whether a point before three digits parts thousands for the page's reader: 10.000 is ten thousand in German. */
+export const pointPartsThousands = (): boolean => spoken === "de";
 
 /** The reader's kind of that language, for dates: `de-AT`, say. */
 export const locale = (): string => {
@@ -42,6 +47,7 @@ export function speak(next: Language): void {
 export async function loadLanguage(): Promise<void> {
   if (language() !== "de") return;
   catalogue = (await import("../texts/de")).de;
+  spoken = "de";
   document.documentElement.lang = "de";
 }
 

@@ -3,11 +3,11 @@
 import { ApiError, api } from "../api/client";
 import type { ImportedRobot } from "../api/types";
 import { h } from "../core/dom";
-import { remember } from "../core/prefs";
 import { navigate } from "../core/router";
 import { t } from "../core/texts";
 import { dialog } from "../ui/dialog";
 import { problemNotice } from "../ui/notice";
+import { replaceOwn } from "./draft";
 import { firstFault } from "./json";
 import { lineNamed } from "./markup";
 import { pretty } from "./pointer";
@@ -32,7 +32,7 @@ export function urdfImport(target: string): HTMLElement {
     void Promise.all([file.text(), side.files?.[0]?.text()])
       .then(([text, beside]) =>
         show(result, { name: file.name, urdf: text, side: beside }, (scene) => {
-          remember("scene-draft", scene);
+          replaceOwn(scene);
           navigate(target);
         }),
       )
@@ -71,7 +71,8 @@ const aboutSideCar = (): string =>
   );
 
 /** What becomes of the scene that is there. */
-export const replacing = (): string => t("It takes the place of the scene that you have written.");
+export const replacing = (): string =>
+  t("It takes the place of the scene that you have written, which stays as the text before.");
 
 /** A robot as it came: the texts of its file and of its side-car. */
 export interface Robot {

@@ -4,12 +4,14 @@ import { recall, remember } from "../core/prefs";
 import type { Draft, QuestionField } from "./question";
 
 type Key = `draft:${string}`;
+type Kept = Pick<QuestionField, "id" | "draft" | "hints">;
 
 export class DraftStore {
-  /** Set when all fields are made: hints that are being opened again must not be forgotten meanwhile. */
-  ready = false;
+  /** What the fields of this page held when they were made, or saved; none until all are: hints that are being opened again must not
+   * be forgotten meanwhile. */
+  private held: Map<string, string[]> | undefined;
   private readonly key: Key;
-  private readonly values: Record<string, string[]>;
+  private values: Record<string, string[]>;
 
   constructor(private readonly lesson: Lesson) {
     // Answers belong to the numbers that they are about.
@@ -22,15 +24,23 @@ export class DraftStore {
     return { draft: this.values[question], hints: this.hintsOf(question) };
   }
 
-  save(fields: QuestionField[]): void {
-    if (!this.ready) return;
-    const values: Record<string, string[]> = {};
+  /** All fields are made: from now on they are saved. */
+  begin(fields: Kept[]): void {
+    this.held = new Map(fields.map((field) => [field.id, field.draft()]));
+  }
+
+  save(fields: Kept[]): void {
+    if (!this.held) return;
+    // Another tab may have kept answers meanwhile: they stay, but for those that were typed here.
+    this.values = parse(recall(this.key));
     for (const field of fields) {
-      values[field.id] = field.draft();
+      const draft = field.draft();
+      if (JSON.stringify(draft) !== JSON.stringify(this.held.get(field.id))) this.values[field.id] = draft;
+      this.held.set(field.id, draft);
       const opened = Math.max(field.hints(), this.hintsOf(field.id));
-      if (opened > 0) values[hintsKey(field.id)] = [String(opened)];
+      if (opened > 0) this.values[hintsKey(field.id)] = [String(opened)];
     }
-    remember(this.key, JSON.stringify(values));
+    remember(this.key, JSON.stringify(this.values));
   }
 
   /** A draft that was begun before the name was known goes on under the name. */

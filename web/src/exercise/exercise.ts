@@ -92,7 +92,7 @@ class ExerciseSection {
         run,
       ),
     );
-    this.draft.ready = true;
+    this.draft.begin(this.fields);
     this.history = historyList(lesson);
     this.form = this.layout();
     this.form.addEventListener("submit", (event) => {

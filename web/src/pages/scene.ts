@@ -2,10 +2,12 @@
 
 import { ApiError, api } from "../api/client";
 import type { Scene } from "../api/types";
+import { addressOf, pathOf } from "../core/address";
 import { AUTHORED, h, saveFile } from "../core/dom";
-import { recall, remember, student } from "../core/prefs";
+import { student } from "../core/prefs";
 import { type Page, setTitle } from "../core/router";
-import { t } from "../core/texts";
+import { parts, t } from "../core/texts";
+import { SceneDraft } from "../editor/draft";
 import { SceneEditor } from "../editor/editor";
 import { importDialog } from "../editor/import";
 import { takeIncoming } from "../editor/incoming";
@@ -57,12 +59,34 @@ class ScenePage {
     { type: "button", class: "button", hidden: true, onclick: () => this.undoEdits() },
     t("Undo all changes"),
   );
-  /** The text that was there before another beginning was chosen. */
-  private before: string | undefined;
+  /** Shows in turn the texts that others took the place of: another beginning, an undone text, that of another tab. */
   private readonly goBack = h(
     "button",
-    { type: "button", class: "button quiet small", hidden: true, onclick: () => this.begin(this.before) },
+    { type: "button", class: "button quiet", hidden: true, onclick: () => this.back() },
     t("Back to the text before"),
+  );
+  /** A built-in scene is nobody's text: where one's own of it goes. */
+  private readonly elsewhere = h(
+    "p",
+    { class: "help", hidden: true },
+    ...parts(
+      "A built-in scene stays as it is. When you leave, your text waits at {own}, as the text before.",
+      {
+        own: h("a", { href: `/scenes/${OWN_SCENE}` }, t("Your own scene")),
+      },
+    ),
+  );
+  private readonly othersSaid = h("span");
+  /** What another tab of this browser has written of the same text. */
+  private readonly others = h(
+    "p",
+    { class: "row wrap tight", role: "status", hidden: true },
+    this.othersSaid,
+    h(
+      "button",
+      { type: "button", class: "button small", onclick: () => this.showTheirs() },
+      t("Show its text"),
+    ),
   );
   private readonly preview = h("input", { type: "checkbox", id: "preview", checked: true });
   private readonly status = h("p", { class: "help", role: "status" });
@@ -75,9 +99,11 @@ class ScenePage {
   );
   private readonly leaving = new AbortController();
   /** Where the browser keeps what was edited; a built-in scene is not kept. */
-  private readonly draftKey: "scene-draft" | `scene-draft:${string}` | null;
+  private readonly draft: SceneDraft | null;
   private endRun: (() => void) | undefined;
   private readonly refuse: () => void;
+  /** Hears no more of other tabs. */
+  private readonly deaf: (() => void) | undefined;
   /** Takes a scene from elsewhere: into one's own, where the text before can be had back. */
   private readonly take = (text: string): void => {
     if (this.subject.own) this.begin(text);
@@ -85,12 +111,14 @@ class ScenePage {
   };
   /** The text as it was loaded. */
   private original = "";
+  /** The text is that of a link: the browser's own stays until this one is edited, and is put aside then. */
+  private linked = false;
   /** The text that runs. */
   private shownText = "";
 
   constructor(private readonly subject: Subject) {
     const { name, own, lesson } = subject;
-    this.draftKey = lesson ? `scene-draft:${lesson}` : own ? "scene-draft" : null;
+    this.draft = lesson ? new SceneDraft({ lesson }) : own ? new SceneDraft("own") : null;
     this.title = h("h1", null, own ? t("Your own scene") : name);
     this.editor = new SceneEditor(
       (text) => this.edited(text),
@@ -108,14 +136,28 @@ class ScenePage {
     this.side = this.layout();
     this.root = besideText(this.side, this.bench);
     this.root.classList.add("is-scene");
+    this.deaf = this.draft?.onTheirs(() => this.hearTheirs());
+    addEventListener("pagehide", () => this.leave(), { signal: this.leaving.signal });
     void this.load();
   }
 
   dispose(): void {
     this.leaving.abort();
+    this.leave();
     this.refuse();
+    this.deaf?.();
     this.editor.dispose();
     this.endRun?.();
+  }
+
+  /** What was made of a built-in scene is not lost. */
+  private leave(): void {
+    if (!this.draft && this.changed) new SceneDraft("own").putAside(this.editor.text());
+  }
+
+  /** Something is written that was not loaded. */
+  private get changed(): boolean {
+    return this.original !== "" && this.editor.text() !== this.original;
   }
 
   private layout(): HTMLElement {
@@ -137,6 +179,7 @@ class ScenePage {
           t("Run this text"),
         ),
         this.restore,
+        this.goBack,
         h(
           "button",
           { type: "button", class: "button quiet", onclick: () => this.download() },
@@ -151,6 +194,8 @@ class ScenePage {
         ),
         this.status,
       ),
+      this.others,
+      this.elsewhere,
       this.subject.own ? this.beginnings() : null,
       this.editor.root,
     );
@@ -167,19 +212,47 @@ class ScenePage {
       press(t("one body"), () => pretty(ONE_BODY)),
       press(t("two bodies and their joints"), () => pretty(TWO_BODIES)),
       press(t("a pendulum"), () => this.original),
-      this.goBack,
     );
   }
 
   /** Puts a text in the place of the one that is there, which can be had back. */
-  private begin(text: string | undefined): void {
-    if (text === undefined) return;
-    const [before, back] = [this.editor.text(), text === this.before];
-    this.before = back ? undefined : before;
-    this.goBack.hidden = back;
+  private begin(text: string): void {
+    const before = this.editor.text();
+    if (text !== before) this.draft?.putAside(before);
+    this.put(text);
+  }
+
+  private back(): void {
+    const text = this.draft?.back(this.editor.text());
+    if (text !== undefined) this.put(text);
+  }
+
+  private put(text: string): void {
     this.editor.set(text);
     this.edited(text);
     this.runText();
+  }
+
+  /** Another tab writes the same text: what this one shows stays until its reader wants the other. */
+  private hearTheirs(): void {
+    if (this.draft?.theirs() !== this.editor.text())
+      this.tellTheirs(t("Another tab of this browser has changed this text."));
+  }
+
+  private tellTheirs(said: string): void {
+    this.othersSaid.textContent = said;
+    this.others.hidden = false;
+  }
+
+  private showTheirs(): void {
+    const theirs = this.draft?.theirs();
+    this.others.hidden = true;
+    if (theirs === undefined) this.back();
+    else {
+      // From now on this tab knows it: it takes the place of nothing.
+      this.draft?.read();
+      this.begin(theirs);
+    }
   }
 
   private async load(): Promise<void> {
@@ -191,12 +264,14 @@ class ScenePage {
         : await api.scene(own ? STARTING_SCENE : name, signal);
       this.original = pretty(scene);
       const seen = await requestedView();
-      const draft = this.draftKey ? ((own ? sceneText(seen) : null) ?? recall(this.draftKey)) : null;
+      const linked = own ? sceneText(seen) : null;
+      this.linked = linked !== null;
+      const text = linked ?? this.draft?.read() ?? this.original;
       this.describe(scene);
-      this.shownText = draft ?? this.original;
-      this.editor.set(this.shownText);
-      this.restore.hidden = draft === null || draft === this.original;
-      if (this.draftKey) this.runText(seen);
+      this.shownText = text;
+      this.editor.set(text);
+      this.offer();
+      if (this.draft) this.runText(seen);
       else this.run({ source: { builtin: name }, scene, seen });
     } catch (error) {
       if (!signal.aborted) this.fail(error);
@@ -228,16 +303,33 @@ class ScenePage {
   }
 
   private edited(text: string): void {
-    this.restore.hidden = text === this.original;
     this.status.textContent = text === this.original ? "" : t("Changed, not run yet.");
-    if (this.draftKey) remember(this.draftKey, text);
+    this.keep(text);
   }
 
   private undoEdits(): void {
+    this.draft?.putAside(this.editor.text());
     this.editor.set(this.original);
-    this.restore.hidden = true;
     this.status.textContent = "";
-    if (this.draftKey) remember(this.draftKey, null);
+    this.keep(null);
+  }
+
+  private keep(text: string | null): void {
+    this.others.hidden = true;
+    const linked = this.linked;
+    this.linked = false;
+    // The page shows a draft from now on, when it is loaded anew, too.
+    if (linked) history.replaceState(null, "", addressOf(pathOf(location)));
+    if (this.draft?.keep(text) && !linked)
+      this.tellTheirs(t("Another tab of this browser had changed this text: what it wrote is kept."));
+    this.offer();
+  }
+
+  /** Offers what there is to go back to. */
+  private offer(): void {
+    this.restore.hidden = !this.changed;
+    this.elsewhere.hidden = this.draft !== null || !this.changed;
+    this.goBack.hidden = !this.draft?.aside().some((text) => text !== this.editor.text());
   }
 
   private run(options: WorkbenchOptions): void {
@@ -267,7 +359,7 @@ async function lessonScene(slug: string, signal: AbortSignal): Promise<Scene> {
   return (await api.lesson(slug, student.get(), signal)).scene;
 }
 
-/** The scene of a link, written as a person would. The browser's own draft stays until this text is edited. */
+/** The scene of a link, written as a person would. */
 function sceneText(seen: SharedView | undefined): string | null {
   if (seen?.scene === undefined) return null;
   try {

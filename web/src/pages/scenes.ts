@@ -2,9 +2,10 @@
 
 import { api } from "../api/client";
 import { h } from "../core/dom";
-import { recall, remember } from "../core/prefs";
+import { recall } from "../core/prefs";
 import { navigate, type Page } from "../core/router";
 import { t } from "../core/texts";
+import { replaceOwn } from "../editor/draft";
 import { urdfImport } from "../editor/import";
 import { takeIncoming } from "../editor/incoming";
 import { cards } from "../gallery/cards";
@@ -77,7 +78,7 @@ export function scenesPage(outlet: HTMLElement): Page {
 
 /** Puts a text in the place of one's own scene, and goes there. */
 export function openOwn(text: string): void {
-  remember("scene-draft", text);
+  replaceOwn(text);
   navigate(`/scenes/${OWN_SCENE}`);
 }
 

@@ -270,6 +270,16 @@ export class Session extends Clock {
     announce(t("Back at the start, time 0."));
   }
 
+  /** The author's scene from its start. */
+  async beginAnew(): Promise<void> {
+    try {
+      if (!isNone(this.numbers)) await this.change(none(), "restart");
+      await this.reset();
+    } catch (error) {
+      this.emit("problem", error);
+    }
+  }
+
   protected toNewest(): void {
     this.endReplay();
     this.cursor = null;

@@ -124,7 +124,7 @@ export function skeleton(lines: number): HTMLElement {
 const slot = (): HTMLElement | null => document.getElementById("banner");
 
 /** Shows a line over everything; null removes it. */
-export function banner(text: string | null, action?: Action): void {
+export function banner(text: string | null, ...actions: Action[]): void {
   const place = slot();
   if (!place) return;
   if (text === null) {
@@ -137,9 +137,9 @@ export function banner(text: string | null, action?: Action): void {
       { class: "banner", role: "status" },
       icon("warn"),
       h("span", null, text),
-      action
-        ? h("button", { type: "button", class: "button small", onclick: action.run }, action.label)
-        : null,
+      ...actions.map((action) =>
+        h("button", { type: "button", class: "button small", onclick: action.run }, action.label),
+      ),
     ),
   );
 }

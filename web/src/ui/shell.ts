@@ -121,16 +121,18 @@ function projectorButton(): HTMLElement {
   return button;
 }
 
+const otherTheme = (): string => (theme() === "dark" ? t("Use the light theme") : t("Use the dark theme"));
+
+/** On the narrowest screens the choice stands in the help alone. */
 function themeButton(): HTMLElement {
   const button = h("button", {
     type: "button",
-    class: "header-button square",
+    class: "header-button square theme-button",
     onclick: () => toggleTheme(),
   });
   const paint = (): void => {
-    const dark = theme() === "dark";
-    button.replaceChildren(icon(dark ? "sun" : "moon"));
-    const label = dark ? t("Use the light theme") : t("Use the dark theme");
+    button.replaceChildren(icon(theme() === "dark" ? "sun" : "moon"));
+    const label = otherTheme();
     button.setAttribute("aria-label", label);
     button.title = label;
   };
@@ -142,11 +144,11 @@ function themeButton(): HTMLElement {
 function paintName(button: HTMLButtonElement): void {
   const who = student.get();
   const nobody = inClass() ? t("Sign in") : t("Your name");
-  button.replaceChildren(who ? h("span", { class: "who" }, who) : h("span", null, nobody));
-  button.setAttribute(
-    "aria-label",
-    who ? `${who}, ${inClass() ? t("your account") : t("change the name")}` : nobody,
-  );
+  const label = who ? `${who}, ${inClass() ? t("your account") : t("change the name")}` : nobody;
+  // On narrow screens the picture stands for the words.
+  button.replaceChildren(icon("person"), who ? h("span", { class: "who" }, who) : h("span", null, nobody));
+  button.setAttribute("aria-label", label);
+  button.title = label;
 }
 
 function account(): void {
@@ -251,6 +253,11 @@ function help(): void {
         h("td", null, entry.does),
       ),
     );
+  const themes = h("button", { type: "button", class: "button small" }, otherTheme());
+  themes.addEventListener("click", () => {
+    toggleTheme();
+    themes.textContent = otherTheme();
+  });
   const toggle = h("input", { type: "checkbox", id: "keys-on" });
   toggle.checked = shortcuts.on();
   toggle.addEventListener("change", () => shortcuts.set(toggle.checked));
@@ -279,6 +286,7 @@ function help(): void {
       ...others().map(([one, name]) =>
         h("button", { type: "button", class: "button small", lang: one, onclick: () => speak(one) }, name),
       ),
+      themes,
     ),
     h("p", { class: "check-line" }, toggle, h("label", { for: "keys-on" }, t("Single-key shortcuts"))),
     h(

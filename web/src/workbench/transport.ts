@@ -2,7 +2,7 @@
 
 import type { SessionState } from "../api/types";
 import { h, setText } from "../core/dom";
-import { fixedPlain, seconds, typedIn } from "../core/format";
+import { fixedPlain, seconds, typedIn, unclearComma } from "../core/format";
 import { bind } from "../core/keys";
 import { t } from "../core/texts";
 import type { Session } from "../session/session";
@@ -14,6 +14,7 @@ const START_SPEED = 1;
 /** Steps by time, s. */
 const STRIDES = [0.01, 0.05, 0.1, 0.5, 1];
 const START_STRIDE = 0.1;
+const CLOCK_DECIMALS = 3;
 /** Length of the timeline until the run says how long it is planned to be, s. */
 const UNKNOWN_DURATION = 10;
 
@@ -193,7 +194,8 @@ export class Transport {
 
   /** What is wrong with a typed time. */
   private wrongTime(time: number): string | undefined {
-    if (!Number.isFinite(time)) return t("Write a time in seconds, such as 1.5");
+    if (!Number.isFinite(time))
+      return unclearComma(this.clock.value) ?? t("Write a time in seconds, such as 1.5");
     const duration = this.session.latest?.duration ?? Infinity;
     if (time >= 0 && time <= duration) return undefined;
     return t("The run goes from 0 to {duration} s: write a time within", { duration: shortest(duration) });
@@ -264,7 +266,7 @@ export class Transport {
     const state = session.latest;
     if (!state) return;
     this.paintTimeline(session.time, state);
-    if (document.activeElement !== this.clock) this.clock.value = fixedPlain(session.time, 3);
+    if (document.activeElement !== this.clock) this.clock.value = fixedPlain(session.time, CLOCK_DECIMALS);
     setText(this.until, t("of {duration} s", { duration: shortest(state.duration) }));
     setText(this.mode, session.replaying ? t("replay") : modeOf(state));
     this.live.hidden = !session.reviewing || session.replaying;
@@ -277,6 +279,7 @@ export class Transport {
     const { timeline, ticks } = this;
     const percent = (part: number): string => `${duration > 0 ? (100 * part) / duration : 0}%`;
     timeline.max = String(duration);
+    this.clock.style.setProperty("--digits", String(fixedPlain(duration, CLOCK_DECIMALS).length));
     timeline.value = String(time);
     timeline.style.setProperty("--done", percent(time));
     timeline.style.setProperty("--computed", percent(computed));

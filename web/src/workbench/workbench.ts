@@ -6,8 +6,9 @@ import type { OwnRun } from "../exercise/field";
 import { inspector } from "../inspector/inspector";
 import { PresenterPanel } from "../lecture/presenter";
 import type { Asked } from "../prediction/panel";
+import { keepView, keptView, tellKept } from "../session/reloaded";
 import { Session } from "../session/session";
-import { restore, shareButton, viewOf } from "../session/share";
+import { restore, type Shared, shareButton, viewOf } from "../session/share";
 import type { SharedView } from "../session/shared-view";
 import { takeAlongButton } from "../share/dialog";
 import { motionOf } from "../share/motion";
@@ -38,16 +39,30 @@ export function workbench(
   root: HTMLElement,
   options: WorkbenchOptions,
 ): { dispose: () => void; act: (action: Action) => void; run: () => OwnRun | undefined } {
-  const session = new Session(options.source, options.seen?.numbers);
-  const made = mountWorkbench(root, session, options);
+  const kept = keptView(options.source);
+  const seen = kept?.view ?? options.seen;
+  const session = new Session(options.source, seen?.numbers);
+  const made = mountWorkbench(root, session, { ...options, seen });
   options.asked?.hold(session);
+  const keep = (): void => {
+    // What waits for a prediction shows nothing yet: it is what was kept before.
+    if (session.held && kept) keepView(options.source, kept.view, kept.altered);
+    else if (session.latest && !session.held) keepView(options.source, made.seen(), session.altered);
+  };
+  addEventListener("pagehide", keep);
   void session.start().then(async () => {
     await options.asked?.given;
-    if (options.seen && session.latest) await restore(session, options.seen);
+    if (!seen || !session.latest) return;
+    await restore(session, seen);
+    if (kept) tellKept(session, kept);
   });
   const run = (): OwnRun | undefined =>
     session.view && { scene: session.view.scene as Scene, altered: session.altered };
-  return { dispose: made.dispose, act: acting(session, root, made.selectPanel), run };
+  const dispose = (): void => {
+    removeEventListener("pagehide", keep);
+    made.dispose();
+  };
+  return { dispose, act: acting(session, root, made.selectPanel), run };
 }
 
 /** Picture, controls and inspector of a run that somebody else starts. */
@@ -55,14 +70,20 @@ export function mountWorkbench(
   root: HTMLElement,
   session: Session,
   options: Partial<WorkbenchOptions>,
-): { dispose: () => void; selectPanel: (key: string) => void } {
+): { dispose: () => void; selectPanel: (key: string) => void; seen: () => SharedView } {
   const picture = new Stage(session, options.scene, options.seen?.picture);
   const details = inspector(session, options.seen?.panel);
-  const shared = { session, panel: details.current, picture: () => picture.current(), own: options.own };
+  const shared: Shared = {
+    session,
+    panel: details.current,
+    picture: () => picture.current(),
+    own: options.own,
+  };
+  const seen = (): SharedView => viewOf(shared);
   const lecture =
     session.controls && !session.here
       ? new PresenterPanel(session, {
-          seen: () => viewOf(shared),
+          seen,
           picture: () => picture.drawing.canvas(THUMBNAIL).toDataURL("image/webp", THUMBNAIL_QUALITY),
           motion: () => motionOf(session, options.scene),
           replay: (taped) => void import("../share/lecture-dialog").then((made) => made.lectureDialog(taped)),
@@ -95,6 +116,7 @@ export function mountWorkbench(
   );
   return {
     selectPanel: details.select,
+    seen,
     dispose: () => {
       shares.dispose();
       lecture?.dispose();

@@ -8,7 +8,8 @@ from typing import Any, Literal, Union
 
 from . import _native
 from ._conventions import Frame, Point, Side, convention
-from ._scene import Scene, named, words
+from ._options import text, texts
+from ._scene import Scene, named
 
 
 def scenes() -> dict[str, str]:
@@ -41,7 +42,7 @@ def equilibrium(of: Scene) -> dict[str, Any]:
 
 def modes(of: Scene, *, about: Literal["equilibrium", "start", "steady"] = "equilibrium") -> dict[str, Any]:
     """Frequencies and shapes of small vibrations: as ``triad modes --json``."""
-    return _analysis("modes", of, about)
+    return _analysis("modes", of, text("about", about))
 
 
 def assemble(of: Scene, *, keep: Union[str, Iterable[str]] = ()) -> dict[str, Any]:
@@ -60,6 +61,6 @@ def kinematics(
     return _analysis("kinematics", of, convention(side, point, frame))
 
 
-def _analysis(word: str, of: Scene, at: str = "", keep: Union[str, Iterable[str]] = ()) -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(_native.analyse(word, *named(of), at, words(keep) or []))
+def _analysis(which: str, of: Scene, at: str = "", keep: Union[str, Iterable[str]] = ()) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(_native.analyse(which, *named(of), at, texts("keep", keep)))
     return found

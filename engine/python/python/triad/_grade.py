@@ -10,6 +10,9 @@ from collections.abc import Mapping
 from typing import Any, Optional, Union
 
 from . import _native
+from ._errors import refusal
+from ._json import as_json, plain
+from ._options import text
 
 Answer = Union[str, float, int, list[Any], Mapping[str, Any]]
 # Characters that names are spoofed with: the workbench takes them out as well.
@@ -36,17 +39,20 @@ def grade(
     student  whose numbers the questions are about; without one, those that everybody sees
     course   the folder of a course; without one, the built-in course
     """
+    if not isinstance(answers, Mapping):
+        what = f"answers is {answers!r}, of type {type(answers).__name__}"
+        raise refusal("not-understood", what, 'give a dict by the ids of questions, such as {"tension": 29.4}')
     submission: dict[str, Any] = {"answers": {name: _answer(answer) for name, answer in answers.items()}}
     if student is not None:
-        plain = _INVISIBLE.sub("", unicodedata.normalize("NFC", student))
-        submission["student"] = " ".join(plain.split())
-    found: dict[str, Any] = json.loads(_native.grade(_folder(course), lesson, json.dumps(submission)))
+        visible = _INVISIBLE.sub("", unicodedata.normalize("NFC", text("student", student)))
+        submission["student"] = " ".join(visible.split())
+    found: dict[str, Any] = json.loads(_native.grade(_folder(course), text("lesson", lesson), as_json(submission)))
     return found
 
 
 def _answer(answer: Answer) -> Any:
-    plain = answer.tolist() if hasattr(answer, "tolist") else answer
-    return dict(plain) if isinstance(plain, Mapping) else {"value": plain}
+    value = plain(answer)
+    return dict(value) if isinstance(value, Mapping) else {"value": value}
 
 
 def _folder(course: Optional[Union[str, os.PathLike[str]]]) -> Optional[str]:

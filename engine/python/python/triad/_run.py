@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -12,9 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from ._columns import Columns
 from ._conventions import Frame, Point, Side, convention
-from ._errors import finite, place
-from ._scene import Scene, as_json, named, words
+from ._errors import place, refusal
+from ._options import checked, text
+from ._scene import Scene, named
 
 if TYPE_CHECKING:
     import pandas
@@ -69,16 +72,18 @@ def run(
         "treatment": treatment,
         "step": step,
         "coordinates": coordinates,
-        "outputs": words(outputs),
-        "no_skip": words(no_skip),
+        "outputs": outputs,
+        "no_skip": no_skip,
         "estimate": estimate,
+        "verify": verify,
         "most_steps": most_steps,
         "most_seconds": most_seconds,
+        "progress": progress,
     }
-    finite(options)
-    kind, text = named(scene)
-    motion, stopped = _native.run(kind, text, as_json(options), verify, progress)
-    found = Run(motion)
+    given = checked(options)
+    compared, told = given.pop("verify", False), given.pop("progress", None)
+    motion, stopped = _native.run(*named(scene), json.dumps(given), compared, told)
+    found = Run(motion, whole=stopped is None)
     if stopped is not None:
         stopped.partial = found  # type: ignore[attr-defined]
         raise stopped
@@ -171,8 +176,12 @@ class Reactions:
         return f"<triad.Reactions of {self.joint}: {self.by} on {self.on}, at most {largest:.4g} N, {unique}>"
 
 
-class Run:
-    """A run: its numbers at all outputs, n of them, as NumPy arrays. ``r["pin.force_x"]`` is a column of its table."""
+class Run(Columns):
+    """A run: its numbers at all outputs, n of them, as NumPy arrays. ``r["pin.fx"]`` is a column of its table, ``list(r)`` their names.
+
+    Runs are copied and pickled with their numbers. What was not asked for before (reactions, accelerations, pictures), a pickled
+    one computes by running its scene again, as far as the run went to its end.
+    """
 
     t: Floats
     """Times, s: (n,)."""
@@ -195,8 +204,9 @@ class Run:
     table: Floats
     """The chosen outputs: (n, columns), the same numbers that ``triad run --out`` writes."""
 
-    def __init__(self, motion: _native.Motion) -> None:
-        self._motion = motion
+    def __init__(self, motion: _native.Motion, *, whole: bool) -> None:
+        self._engine: Optional[_native.Motion] = motion
+        self._whole = whole
         about = json.loads(motion.about())
         self.scene: dict[str, Any] = about["scene"]
         self.bodies: list[str] = about["bodies"]
@@ -217,6 +227,44 @@ class Run:
         self.errors = Errors(*errors.T)
         self._reaction_errors = arrays.pop("reaction_errors")
         self.__dict__.update(arrays)
+
+    @property
+    def _motion(self) -> _native.Motion:
+        """The engine's part, made again where the run came without it."""
+        if self._engine is None:
+            self._engine = self._again()
+        return self._engine
+
+    def _again(self) -> _native.Motion:
+        """The same run, from its scene: to the same bits, or not at all."""
+        if self._whole:
+            motion, stopped = _native.run("json", json.dumps(self.scene), "{}", False, None)
+            if isinstance(stopped, KeyboardInterrupt):
+                raise stopped
+            arrays = dict(motion.arrays() or ())
+            if all(np.array_equal(arrays[name], getattr(self, name)) for name in ("t", "q", "v")):
+                return motion
+        raise refusal(
+            "run-without-engine",
+            "this run was pickled, and its scene does not give it again",
+            "ask for reactions, accelerations and pictures before it is pickled, or run its scene again: triad.run(r.scene)",
+        )
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_engine": None}
+
+    def __copy__(self) -> Run:
+        return self._with(self.__dict__)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Run:
+        # The engine's part never changes: copies share it.
+        memo[id(self._engine)] = self._engine
+        return self._with(copy.deepcopy(self.__dict__, memo))
+
+    def _with(self, parts: dict[str, Any]) -> Run:
+        made = Run.__new__(Run)
+        made.__dict__.update(parts)
+        return made
 
     @property
     def energy(self) -> Floats:
@@ -263,7 +311,7 @@ class Run:
         point  "joint-point", "center-of-mass" of that body, "origin", or three numbers in the world, m
         frame  "world", "joint" (x along its axis), or "body" (the one that it acts on)
         """
-        found = self._motion.reactions(joint, convention(side, point, frame))
+        found = self._motion.reactions(text("joint", joint), convention(side, point, frame))
         force_error, moment_error = self._reaction_errors.T
         size = np.linalg.norm(found.force, axis=1)
         if not isinstance(point, str) or point != "joint-point":
@@ -309,6 +357,10 @@ class Run:
         from ._viewer import viewer
 
         return viewer(self, width, height)
+
+    def keys(self) -> list[str]:
+        """The names of the columns of the table."""
+        return list(self.columns)
 
     def __getitem__(self, column: str) -> Floats:
         return self.table[:, place("column", column, self.columns)]

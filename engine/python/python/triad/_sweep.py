@@ -12,8 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._errors import finite, place, refusal
-from ._scene import Scene, as_json, named, words
+from ._columns import Columns
+from ._errors import place, refusal
+from ._options import checked, text
+from ._scene import Scene, named
 
 if TYPE_CHECKING:
     import pandas
@@ -36,11 +38,14 @@ def normal(mean: float, deviation: float) -> Values:
     return ("normal", mean, deviation)
 
 
-class Sweep:
-    """The runs of a sweep, in the order of its plan: what each gave at its end. ``s["energy"]`` is a column."""
+class Sweep(Columns):
+    """The runs of a sweep, in the order of its plan: what each gave at its end. ``s["energy"]`` is a column, ``list(s)`` are their names.
+
+    Sweeps are copied and pickled with their numbers; a pickled one has no pictures.
+    """
 
     def __init__(self, found: _native.Sweep) -> None:
-        self._found = found
+        self._found: Optional[_native.Sweep] = found
         about = json.loads(found.about())
         self.varied: list[str] = about["varied"]
         self.columns: list[str] = [name for name, _ in about["columns"]]
@@ -56,6 +61,13 @@ class Sweep:
         self.doubts: NDArray[np.int64] = np.array(found.doubts())
         """How many things speak against each result."""
 
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_found": None}
+
+    def keys(self) -> list[str]:
+        """The names of the columns: the varied numbers, then the outputs."""
+        return [*self.varied, *self.columns]
+
     def __getitem__(self, column: str) -> NDArray[np.float64]:
         if column in self.varied:
             return self.values[:, self.varied.index(column)]
@@ -68,14 +80,18 @@ class Sweep:
         """Varied numbers and outputs, one row for each run. Needs pandas: ``pip install pandas``."""
         import pandas
 
-        return pandas.DataFrame(np.hstack([self.values, self.outputs]), columns=[*self.varied, *self.columns])
+        return pandas.DataFrame(np.hstack([self.values, self.outputs]), columns=self.keys())
 
     def svg(self, column: Optional[str] = None) -> str:
         """An output over the first varied number, as SVG."""
-        return self._found.svg(0 if column is None else place("column", column, self.columns))
+        which = 0 if column is None else place("column", column, self.columns)
+        if self._found is None:
+            what = "this sweep was pickled: it has its numbers, and no pictures"
+            raise refusal("sweep-without-engine", what, "take s.svg(...) before it is pickled, or draw s.to_pandas()")
+        return self._found.svg(which)
 
-    def _repr_svg_(self) -> str:
-        return self.svg()
+    def _repr_svg_(self) -> Optional[str]:
+        return self.svg() if self._found else None
 
     def __repr__(self) -> str:
         failed = f", {len(self.stopped)} of them stopped" if self.stopped else ""
@@ -113,19 +129,29 @@ def sweep(
         "tolerance": tolerance,
         "integrator": integrator,
         "estimate": estimate,
-        "outputs": words(outputs),
+        "outputs": outputs,
+        "samples": samples,
+        "seed": seed,
+        "threads": threads,
+        "progress": progress,
     }
-    finite(options)
-    given = [[name, _values(name, values)] for name, values in vary.items()]
-    kind, text = named(scene)
-    found = _native.sweep(kind, text, as_json(options), json.dumps(given), samples, seed, threads, progress)
-    return Sweep(found)
+    given = checked(options)
+    plan = [given.pop(name, usual) for name, usual in (("samples", 1), ("seed", 1), ("threads", 0), ("progress", None))]
+    return Sweep(_native.sweep(*named(scene), json.dumps(given), json.dumps(_varied(vary)), *plan))
+
+
+def _varied(vary: Mapping[str, Union[Values, Sequence[Any], NDArray[Any]]]) -> list[tuple[str, dict[str, Any]]]:
+    """How numbers vary, as the native part is told."""
+    if not isinstance(vary, Mapping):
+        hint = 'give a dict such as {"mass": triad.grid(1, 2, 11)}'
+        raise refusal("vary", f"vary is {vary!r}, of type {type(vary).__name__}", hint)
+    return [(text(f"the name {name!r} in vary", name), _values(name, values)) for name, values in vary.items()]
 
 
 def _values(name: str, values: Union[Values, Sequence[Any], NDArray[Any]]) -> dict[str, Any]:
     if isinstance(values, (list, np.ndarray)):
         return _equally_spaced(name, values)
-    parts = list(values)
+    parts = list(values) if isinstance(values, tuple) else []
     kind, numbers = parts[:1], parts[1:]
     known = all(isinstance(x, Real) and math.isfinite(x) for x in numbers)
     if known and len(numbers) == 2 and (kind == ["uniform"] or (kind == ["normal"] and numbers[1] >= 0)):

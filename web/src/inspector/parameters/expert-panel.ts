@@ -3,7 +3,7 @@
 import { at, type Leaf, leaves } from "../../api/numbers";
 import type { AfterChange } from "../../api/types";
 import { h, setText } from "../../core/dom";
-import { typedNumber } from "../../core/format";
+import { typedNumber, unclearComma } from "../../core/format";
 import { t } from "../../core/texts";
 import type { Session } from "../../session/session";
 import type { Panel } from "../../ui/panel";
@@ -179,6 +179,11 @@ export class ExpertPanel implements Panel {
       const value = typedNumber(field.value);
       field.setAttribute("aria-invalid", String(!Number.isFinite(value)));
       if (Number.isFinite(value)) this.set(leaf.pointer, value, this.after.value as AfterChange);
+      else
+        setText(
+          this.status,
+          unclearComma(field.value) ?? t("“{text}” is not a number.", { text: field.value }),
+        );
     });
     return h(
       "tr",

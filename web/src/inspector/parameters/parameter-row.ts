@@ -2,7 +2,7 @@
 
 import type { SessionParameter } from "../../api/types";
 import { h, setText } from "../../core/dom";
-import { num, typedIn } from "../../core/format";
+import { num, typedIn, unclearComma } from "../../core/format";
 import { t } from "../../core/texts";
 
 /** Steps of a slider whose author chose none. */
@@ -118,7 +118,10 @@ export class ParameterRow {
     else this.field.setAttribute("aria-invalid", "true");
     setText(
       this.wrong,
-      good ? "" : t("Write a number from {low} to {high}.", { low: num(low), high: num(high) }),
+      good
+        ? ""
+        : (unclearComma(this.field.value) ??
+            t("Write a number from {low} to {high}.", { low: num(low), high: num(high) })),
     );
     if (!good) return;
     // The unit stands behind the field.

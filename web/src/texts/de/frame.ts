@@ -335,8 +335,8 @@ export const frame = {
     "{name} ist weder eine Szene (JSON) noch ein Roboter (URDF).",
   "This cannot be opened": "Das lässt sich nicht öffnen",
   "Open {name}": "{name} öffnen",
-  "It takes the place of the scene that you have written.":
-    "Sie tritt an die Stelle der Szene, die du geschrieben hast.",
+  "It takes the place of the scene that you have written, which stays as the text before.":
+    "Sie tritt an die Stelle der Szene, die du geschrieben hast; diese bleibt als Text davor.",
   "Choose a file, drop it on this page, or paste its text.":
     "Wähle eine Datei, lege sie auf dieser Seite ab oder füge ihren Text ein.",
   "It is being read …": "Wird gelesen …",

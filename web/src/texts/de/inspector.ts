@@ -167,6 +167,14 @@ export const inspector = {
   "changes at once": "wirkt sofort",
   "restarts the run": "beginnt den Lauf neu",
   "Write a number from {low} to {high}.": "Schreibe eine Zahl von {low} bis {high}.",
+  "The page was loaded anew: numbers and time are those from before.":
+    "Die Seite wurde neu geladen: Zahlen und Zeit sind die von vorher.",
+  "The page was loaded anew. The run had been changed on its way: it stands at its start again.":
+    "Die Seite wurde neu geladen. Der Lauf war unterwegs geändert worden: Er steht wieder an seinem Anfang.",
+  "Begin anew": "Neu beginnen",
+  "“{text}” is not a number.": "„{text}“ ist keine Zahl.",
+  "The comma in “{text}” can be read in two ways: write the decimal sign as a point.":
+    "Das Komma in „{text}“ lässt sich auf zwei Arten lesen: Schreibe das Dezimalzeichen als Punkt.",
   Undo: "Rückgängig",
   "Reset all": "Alles zurücksetzen",
   "All numbers stand as the author wrote them.": "Alle Zahlen stehen, wie der Autor sie geschrieben hat.",

@@ -360,6 +360,13 @@ export const learning = {
   "two bodies and their joints": "zwei Körpern und ihren Gelenken",
   "a pendulum": "einem Pendel",
   "Back to the text before": "Zurück zum Text davor",
+  "Show its text": "Seinen Text zeigen",
+  "Another tab of this browser has changed this text.":
+    "Ein anderer Tab dieses Browsers hat diesen Text geändert.",
+  "Another tab of this browser had changed this text: what it wrote is kept.":
+    "Ein anderer Tab dieses Browsers hatte diesen Text geändert: Was er schrieb, ist aufgehoben.",
+  "A built-in scene stays as it is. When you leave, your text waits at {own}, as the text before.":
+    "Eine eingebaute Szene bleibt, wie sie ist. Wenn du gehst, wartet dein Text bei {own}, als Text davor.",
   "Line {line}: see the remark below the text.": "Zeile {line}: siehe die Bemerkung unter dem Text.",
   "Ctrl and the space bar list the words that fit at the cursor.":
     "Strg und die Leertaste zeigen die Wörter, die an der Stelle passen.",
