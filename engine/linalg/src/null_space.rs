@@ -118,10 +118,17 @@ pub fn least_squares(
     let (null, rest) = null_and_rest(matrix, smallest);
     let mut x = DMatrix::zeros(rest.ncols(), right.ncols());
     if !rest.is_empty() {
-        let qr = (matrix * &rest).qr();
-        x = qr.q().tr_mul(right);
-        // R is regular: what is left of the columns is independent.
-        qr.r().solve_upper_triangular_mut(&mut x);
+        let columns = matrix * &rest;
+        let (q, r) = columns.clone().qr().unpack();
+        let mut left = right.clone();
+        // Once more for what rounding leaves of the first solution.
+        for _ in 0..2 {
+            let mut added = q.tr_mul(&left);
+            // R is regular: what is left of the columns is independent.
+            r.solve_upper_triangular_mut(&mut added);
+            left -= &columns * &added;
+            x += added;
+        }
     }
     (rest * x, null)
 }

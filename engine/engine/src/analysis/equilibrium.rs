@@ -266,11 +266,19 @@ pub(super) fn largest_part(stage: &Stage) -> f64 {
     weights.chain(loads).fold(inertial, f64::max)
 }
 
+/// Rounding of the numbers that places are told by, m.
+fn rounding_of_places(stage: &Stage) -> f64 {
+    let farthest = stage.mechanism.state.bodies().iter().fold(0.0f64, |most, at| most.max(at.q.r.norm()));
+    f64::EPSILON * farthest
+}
+
 /// The position of rest at which the stage is.
 fn told(
     stage: &mut Stage,
     Found { held, stiffness, iterations }: Found,
 ) -> Result<Equilibrium, AnalysisError> {
+    let carried = held.carried(&stiffness.motions);
+    let stiffness = stiffness.of_what_moves(stage, &held.basis, &carried);
     let least = stiffness.along.iter().fold(f64::INFINITY, |a, b| a.min(*b));
     let Stability { stable, note } =
         stability::judge(stage, &held.basis, &stiffness, &held.carried(&stiffness.motions));
@@ -291,7 +299,10 @@ fn told(
     Ok(Equilibrium {
         iterations,
         residual: held.along.amax(),
-        error: held.error(&stiffness).filter(|error| *error < stage.mechanism.system.length),
+        error: held
+            .error(&stiffness)
+            .map(|error| error.max(rounding_of_places(stage)))
+            .filter(|error| *error < stage.mechanism.system.length),
         least_stiffness: if least.is_finite() { least } else { 0.0 },
         stable,
         bodies: stage.frames(),

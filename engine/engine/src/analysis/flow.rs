@@ -19,7 +19,8 @@ pub struct Spin {
 pub struct Flow {
     /// Angular velocity Ω of the frame, rad/s.
     pub turning: Vector3<f64>,
-    /// Velocity of the frame at the world's origin, m/s.
+    /// A point, and the velocity of the frame there, m/s.
+    pub about: Vector3<f64>,
     pub sliding: Vector3<f64>,
     /// Uniform velocity that carries the axis of turning along, m/s.
     pub carried: Vector3<f64>,
@@ -31,7 +32,12 @@ impl Flow {
     /// Velocity and angular velocity of a body at a place.
     pub fn twist(&self, body: usize, at: &NaturalCoordinates) -> [Vector3<f64>; 2] {
         let Spin { axis, rate } = self.spins.get(body).copied().unwrap_or_default();
-        [self.sliding + self.turning.cross(&at.r), self.turning + at.e[axis] * rate]
+        [self.sliding + self.turning.cross(&(at.r - self.about)), self.turning + at.e[axis] * rate]
+    }
+
+    /// Velocity of the frame at the world's origin, m/s; what of it is below `least` is rounding.
+    pub fn at_origin(&self, least: f64) -> Vector3<f64> {
+        (self.sliding - self.turning.cross(&self.about)).map(|x| if x.abs() <= least { 0.0 } else { x })
     }
 
     /// Generalized velocities of a body at a place.
@@ -60,8 +66,8 @@ impl Flow {
         let axes = Matrix3::from_columns(&at.e);
         let inertia = axes * Matrix3::from_diagonal(&body.principal) * axes.transpose();
         let (turning, e) = (self.turning, at.e[axis]);
-        let acceleration =
-            turning.cross(&(self.sliding - self.carried + turning.cross(&at.r))) + turning.cross(&v) * 2.0;
+        let turned = turning.cross(&(at.r - self.about));
+        let acceleration = turning.cross(&(self.sliding - self.carried + turned)) + turning.cross(&v) * 2.0;
         // h = I ω changes with the attitude of the body in the frame, with the axis of its spin, and with the frame.
         let (omega, attitude) = (turning + e * rate + w, w + e * rate);
         let h = inertia * omega;
@@ -80,9 +86,9 @@ impl Flow {
         let (square, sliding) = (self.turning.norm_squared(), self.sliding - self.carried);
         let (centre, along) = if square > 0.0 {
             let along = self.turning * (self.turning.dot(&sliding) / square);
-            (self.turning.cross(&sliding) / square, along + self.carried)
+            (self.about + self.turning.cross(&sliding) / square, along + self.carried)
         } else {
-            (Vector3::zeros(), self.sliding)
+            (self.about, self.sliding)
         };
         NaturalCoordinates {
             r: centre + turn * (at.r - centre) + along * time,

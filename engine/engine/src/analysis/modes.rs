@@ -144,7 +144,7 @@ pub fn modes_while(scene: &Scene, about: ModesAbout, wanted: &Wanted) -> Result<
     let mut modes: Vec<Mode> = found
         .iter()
         .map(|eigen| Mode {
-            error: beside.as_ref().and_then(|beside| error(eigen, beside)),
+            error: beside.as_ref().and_then(|beside| error(eigen, beside, position.slower)),
             ..mode(eigen.value, &small.moved(&eigen.vector), length)
         })
         .collect();
@@ -166,6 +166,8 @@ struct Position {
     unfelt: Option<Unfelt>,
     /// A twist of the bodies by which the position may be off.
     off: DVector<f64>,
+    /// Part of the velocities of a steady motion by which they may be off: frequencies are off by as much.
+    slower: f64,
 }
 
 impl Position {
@@ -174,16 +176,17 @@ impl Position {
         Ok(match about {
             ModesAbout::Equilibrium => {
                 let off = equilibrium::find(stage)?.off();
-                Self { steady: None, unfelt: None, off }
+                Self { steady: None, unfelt: None, off, slower: 0.0 }
             }
             ModesAbout::Start => Self {
                 steady: None,
                 unfelt: None,
                 off: DVector::zeros(6 * stage.mechanism.system.bodies.len()),
+                slower: 0.0,
             },
             ModesAbout::Steady => {
-                let steady::Found { told, unfelt, off } = steady::find(stage)?;
-                Self { steady: Some(told), unfelt: Some(unfelt), off }
+                let steady::Found { told, unfelt, off, slower } = steady::find(stage)?;
+                Self { steady: Some(told), unfelt: Some(unfelt), off, slower }
             }
         })
     }
@@ -215,11 +218,13 @@ impl Position {
 const MODES_OF_ROUNDING: &str =
     "how many modes there are depends on rounding: some motion has next to no inertia or stiffness";
 
-/// Error of an eigenvalue, 1/s: how far it is from the nearest of those found beside, and its own rounding.
-fn error(eigen: &Eigen, beside: &[Complex<f64>]) -> Option<f64> {
+/// Error of an eigenvalue, 1/s: how far it is from the nearest of those found beside, its own rounding, and what of it the velocities of
+/// a steady motion may be `slower`.
+fn error(eigen: &Eigen, beside: &[Complex<f64>], slower: f64) -> Option<f64> {
     let nearest = beside.iter().map(|other| (other - eigen.value).modulus()).min_by(f64::total_cmp)?;
     // Not `max`, which would leave out what is not a number.
-    Some(larger_or_nan(nearest, eigen.rounding)).filter(|error| f64::is_finite(*error))
+    let error = larger_or_nan(nearest, larger_or_nan(eigen.rounding, slower * eigen.value.modulus()));
+    Some(error).filter(|error| f64::is_finite(*error))
 }
 
 /// What of the start linear equations about a position leave out.

@@ -49,18 +49,22 @@ pub struct Fields {
     axes: Vec<(usize, usize)>,
     /// The mechanism's length: arcs of this radius have the velocity one.
     length: f64,
+    /// The point about which the whole turns: the centre of mass, as turns about a point far away hardly differ from translations.
+    about: Vector3<f64>,
 }
 
 impl Fields {
-    /// Those of the bodies of a mechanism of this length.
-    pub fn new(bodies: &[RigidBody], length: f64) -> Self {
+    /// Those of the bodies of a mechanism of this length at these places.
+    pub fn new(bodies: &[RigidBody], at: &[NaturalCoordinates], length: f64) -> Self {
         let axis = |j: &Vector3<f64>| {
             let same = |a: usize, b: usize| (j[a] - j[b]).abs() <= ALIKE * j.max();
             (0..3).find(|&k| same((k + 1) % 3, (k + 2) % 3) && !same(k, (k + 1) % 3))
         };
         let spins = bodies.iter().enumerate();
         let axes = spins.filter_map(|(index, body)| Some((index, axis(&body.principal)?))).collect();
-        Self { axes, length }
+        let weighted = bodies.iter().zip(at).map(|(body, at)| at.r * body.mass).sum::<Vector3<f64>>();
+        let about = weighted / bodies.iter().map(|body| body.mass).sum::<f64>();
+        Self { axes, length, about }
     }
 
     /// How many.
@@ -79,7 +83,8 @@ impl Fields {
         for (index, at) in at.iter().enumerate() {
             for k in 0..3 {
                 let unit = Vector3::ith(k, 1.0);
-                out.fixed_view_mut::<3, 1>(6 * index, k).copy_from(&(unit.cross(&at.r) / self.length));
+                out.fixed_view_mut::<3, 1>(6 * index, k)
+                    .copy_from(&(unit.cross(&(at.r - self.about)) / self.length));
                 out[(6 * index + 3 + k, k)] = 1.0 / self.length;
                 out[(6 * index + k, 3 + k)] = 1.0;
             }
@@ -130,6 +135,7 @@ impl Fields {
         let rounded = |x: f64| if x.abs() <= least { 0.0 } else { x };
         let mut flow = Flow {
             turning: part(p, 0).map(|x| rounded(x) / self.length),
+            about: self.about,
             sliding: part(p, 3).map(rounded),
             carried: Vector3::zeros(),
             spins: vec![Spin::default(); bodies],

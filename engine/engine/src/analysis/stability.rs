@@ -38,6 +38,29 @@ pub struct Stiffness {
     pub motions: DMatrix<f64>,
 }
 
+impl Stiffness {
+    /// Which motions are held (true) or driven away (false), where that is decided; `carried` are the forces that take part in each, N.
+    fn holds(&self, carried: &[f64], length: f64) -> Vec<Option<bool>> {
+        let [of_stiffness, of_forces] = UNDECIDED;
+        let stiffest = of_stiffness * self.along.amax();
+        let none = carried.iter().map(|force| stiffest.max(of_forces * force / length));
+        self.along.iter().zip(none).map(|(k, none)| (k.abs() > none).then_some(*k > 0.0)).collect()
+    }
+
+    /// The same without motions that meet no stiffness and have no inertia: a point mass that turns about itself moves nothing.
+    pub fn of_what_moves(self, stage: &Stage, basis: &DMatrix<f64>, carried: &[f64]) -> Self {
+        let held = self.holds(carried, stage.mechanism.system.length);
+        let (felt, idle): (Vec<usize>, Vec<usize>) = (0..held.len()).partition(|k| held[*k].is_some());
+        let moves =
+            || !Inertia::new(stage, &(basis * self.motions.select_columns(&idle))).inertial.is_empty();
+        if idle.is_empty() || moves() {
+            return self;
+        }
+        let along = self.along.select_rows(&felt);
+        Self { along, motions: self.motions.select_columns(&felt), matrix: self.matrix }
+    }
+}
+
 /// Judges the position of a stage at rest; `carried` are the forces that take part in each of the motions, N.
 pub fn judge(stage: &mut Stage, basis: &DMatrix<f64>, stiffness: &Stiffness, carried: &[f64]) -> Stability {
     let Stiffness { matrix, along, .. } = stiffness;
@@ -50,10 +73,7 @@ pub fn judge(stage: &mut Stage, basis: &DMatrix<f64>, stiffness: &Stiffness, car
         let more = if stable.is_some() { "" } else { "; undecided here: its modes tell" };
         return Stability { stable, note: Some(format!("{note}{more}")) };
     }
-    let [of_stiffness, of_forces] = UNDECIDED;
-    let none = carried.iter().map(|force| (of_stiffness * along.amax()).max(of_forces * force / length));
-    let held: Vec<Option<bool>> =
-        along.iter().zip(none).map(|(k, none)| (k.abs() > none).then_some(*k > 0.0)).collect();
+    let held = stiffness.holds(carried, length);
     let leaves = held.contains(&Some(false));
     let undecided = !leaves && held.contains(&None);
     Stability {

@@ -130,3 +130,31 @@ fn a_body_that_only_springs_carry_comes_to_rest() {
         9.81,
     );
 }
+
+/// A point that turns about itself moves nothing, and nothing has to hold it.
+#[test]
+fn points_on_springs_hang_stable() {
+    for height in [0.0, 1000.0] {
+        let scene = json!({
+            "name": "point", "gravity": [0, -9.81, 0],
+            "bodies": [{ "name": "point", "mass": 1, "position": [0, height - 1.2, 0] }],
+            "loads": [{ "type": "spring", "name": "s", "body_i": "ground", "body_j": "point", "point_i": [0, height, 0], "point_j": [0, 0, 0],
+                "stiffness": 50, "free_length": 1 }]
+        });
+        let found = equilibrium(&Scene::from_json(&scene.to_string()).unwrap()).unwrap();
+        let y = found.bodies[0].position[1];
+        let off = (y - (height - 1.0 - 9.81 / 50.0)).abs();
+        assert_eq!((found.stable, found.notes), (Some(true), Vec::new()));
+        // The string is longer than the spring's free length: across, a weight holds it.
+        assert!(
+            (found.least_stiffness / (9.81 / (1.0 + 9.81 / 50.0)) - 1.0).abs() < 1e-9,
+            "{}",
+            found.least_stiffness
+        );
+        let error = found.error.unwrap();
+        assert!(
+            off <= error && error >= f64::EPSILON * y.abs() && error < 1e-11,
+            "off {off:e}, told {error:e}"
+        );
+    }
+}

@@ -227,3 +227,42 @@ fn steady_motions_are_found_in_any_unit() {
         assert!(way < 1e-6, "{length} m, {mass} kg: moved by {way} lengths");
     }
 }
+
+/// A disc that a motor spins on a shaft, which a universal joint carries and springs hold, `away` from the world's origin.
+fn rotor(away: f64) -> Scene {
+    let at = |[x, y, z]: [f64; 3]| [away + x, 0.7 * away + y, 0.4 * away + z];
+    let springs: Vec<Value> = [[30.0, 0.0], [0.0, 30.0], [-30.0, 0.0], [0.0, -30.0]]
+        .iter()
+        .enumerate()
+        .map(|(k, [x, y])| {
+            json!({ "type": "spring", "name": format!("s{k}"), "body_i": "ground", "body_j": "shaft", "point_i": at([*x, *y, 9.0]),
+                "point_j": [0, 0, 1.5], "stiffness": 300, "damping": 0.1, "free_length": 27 })
+        })
+        .collect();
+    scene(&json!({
+        "name": "rotor", "gravity": [0, 0, 0],
+        "bodies": [
+            { "name": "shaft", "mass": 0.3, "position": at([0.0, 0.0, 7.5]), "inertia": { "principal": [9, 9, 0.45] } },
+            { "name": "disc", "mass": 2, "position": at([0.0, 0.0, 15.0]), "inertia": { "principal": [18, 18, 27] } }],
+        "joints": [
+            { "type": "universal", "name": "u", "body_i": "ground", "body_j": "shaft", "point": at([0.0; 3]), "axes": [[1, 0, 0], [0, 1, 0]] },
+            { "type": "revolute", "name": "r", "body_i": "shaft", "body_j": "disc", "point": at([0.0, 0.0, 15.0]), "axis": [0, 0, 1] }],
+        "loads": springs,
+        "drivers": [{ "type": "angle", "name": "D", "joint": "r", "motion": { "kind": "ramp", "rate": 1000 } }]
+    }))
+}
+
+/// Nothing depends on where the world's origin is.
+#[test]
+fn steady_motions_are_the_same_far_from_the_origin() {
+    let here = modes(&rotor(0.0), ModesAbout::Steady).unwrap();
+    assert_eq!(oscillating(&here).len(), 2);
+    for away in [100.0, 1e4] {
+        let there = modes(&rotor(away), ModesAbout::Steady).unwrap();
+        assert_eq!(kinds(&there), kinds(&here), "{away} m");
+        near(&oscillating(&there), &oscillating(&here), 1e-7);
+        let steady = there.steady.unwrap();
+        assert!(steady.spins.len() == 1 && (steady.spins[0].rate / 1000.0 - 1.0).abs() < 1e-10, "{steady:?}");
+        assert_eq!((steady.turning, steady.sliding), ([0.0; 3], [0.0; 3]), "{away} m");
+    }
+}

@@ -144,3 +144,56 @@ fn points_that_coincide_at_the_start_part_along_an_arc() {
         assert!(off < 1e-8 && off < 10.0 * told + 1e-10, "{t} s: {off:e}, told {told:e}");
     }
 }
+
+/// Position and velocity at times of a body of 1 kg that a spring of 9 N/m and 0.3 m pulls through its own anchor from 1 m away.
+fn through_the_anchor(times: impl Iterator<Item = f64>) -> Vec<[f64; 2]> {
+    let (pace, free) = (3.0, 0.3);
+    // x = side (c + A cos + B sin): the first crossing comes from rest, and all others take as long as each other.
+    let first = libm::acos(-free / 0.7) / pace;
+    let speed = 0.7 * pace * libm::sin(pace * first);
+    let (b, c) = (speed / pace, free);
+    // The way out and back: c − c cos + b sin = 0 again.
+    let between = 2.0 * (std::f64::consts::PI - libm::atan2(b, c)) / pace;
+    let at = |t: f64| {
+        if t < first {
+            return [free + 0.7 * libm::cos(pace * t), -0.7 * pace * libm::sin(pace * t)];
+        }
+        let (mut from, mut side) = (first, -1.0);
+        while t >= from + between {
+            (from, side) = (from + between, -side);
+        }
+        let (sine, cosine) = libm::sincos(pace * (t - from));
+        [side * (c - c * cosine + b * sine), side * pace * (c * sine + b * cosine)]
+    };
+    times.map(at).collect()
+}
+
+/// The motion without the error passes the anchor at another moment, and its force turns round then.
+#[test]
+fn an_error_is_carried_over_where_a_spring_turns_round() {
+    let scene = json!({
+        "name": "kink", "gravity": [0, 0, 0],
+        "bodies": [{"name": "b", "mass": 1, "inertia": {"principal": [0.1, 0.1, 0.1]}, "position": [1, 0, 0]}],
+        "joints": [{"name": "j", "type": "prismatic", "body_i": "ground", "body_j": "b", "point": [0, 0, 0], "axis": [1, 0, 0]}],
+        "loads": [{"name": "s", "type": "spring", "body_i": "ground", "body_j": "b", "point_i": [0, 0, 0], "point_j": [0, 0, 0],
+            "stiffness": 9, "free_length": 0.3}],
+        "simulation": {"duration": 5}
+    });
+    let scene = Scene::from_json(&scene.to_string()).unwrap();
+    let times: Vec<f64> = (1..=280).map(|k| 0.0173 * f64::from(k)).collect();
+    let exact = through_the_anchor(times.iter().copied());
+    for tolerance in [1e-4, 1e-5, 1e-6, 1e-7, 1e-9] {
+        let scene = scene.clone().integrator(IntegratorKind::Taylor).tolerance(tolerance);
+        let mut run = Simulation::new(&scene).unwrap();
+        let mut few = 0;
+        for (&t, [x, v]) in times.iter().zip(&exact) {
+            run.advance_to(t).unwrap();
+            let (body, told) = (run.frame().bodies[0], run.error_estimate().unwrap());
+            let off = [(body.position[0] - x).abs(), (body.velocity[0] - v).abs()];
+            assert!(off[0] < 1e3 * tolerance, "{tolerance:e}, {t}: {off:?}");
+            assert!(off[0] < 10.0 * told.position + 1e-14, "{tolerance:e}, {t}: {off:?}, told {told:?}");
+            few += usize::from(off[0] > 3.0 * told.position + 1e-14 || off[1] > 3.0 * told.velocity + 1e-14);
+        }
+        assert!(few <= 7, "{tolerance:e}: {few} moments of 280");
+    }
+}

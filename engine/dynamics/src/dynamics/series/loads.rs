@@ -23,6 +23,13 @@ use pulp::Simd;
 const SATURATED: f64 = 20.0;
 /// Part of the distance to the nearest pole of tanh that a step may go.
 const NEAR_POLE: f64 = 0.4;
+/// Part of the distance to the nearest singularity of a prescribed force, in complex time, that a step may go where that matters: farther
+/// on, terms that are left out hardly fall, and the first of them says little of their sum.
+const NEAR_SINGULAR: f64 = 0.55;
+/// Part of the tolerance below which the last terms of a force do not matter.
+const SETTLED: f64 = 0.01;
+/// Terms over which they are seen to fall.
+const FALLING: usize = 4;
 
 /// Bundle and lane of a body.
 type Seat = [usize; 2];
@@ -75,6 +82,8 @@ struct LawSeries {
     /// The force, and what of it is not the spring's.
     force: Vec<f64>,
     other: Vec<f64>,
+    /// Whether x is a length that has become negative: beyond the moment at which the spring's points pass each other.
+    beyond: bool,
 }
 
 impl LawSeries {
@@ -89,6 +98,7 @@ impl LawSeries {
             rest: zeros(),
             force: zeros(),
             other: zeros(),
+            beyond: false,
         }
     }
 
@@ -126,7 +136,7 @@ impl LawSeries {
 
     /// Whether x is the length of nothing, or of no consequence.
     fn without_direction(&self) -> bool {
-        self.x[0] < f64::MIN_POSITIVE || !self.law.is_directed()
+        self.x[0].abs() < f64::MIN_POSITIVE || !self.law.is_directed()
     }
 
     fn expand(&mut self, t: f64) {
@@ -276,6 +286,9 @@ impl Loads {
                     between[m] = LanePlace::difference([Some(*to), Some(*from)], values);
                     square[m] = dot(between, between, m);
                     law.x[m] = root(square[m], &law.x, m);
+                    if m == 0 && law.beyond {
+                        law.x[0] = -law.x[0];
+                    }
                 }
                 Load::Torsion { angle, axis, direction, law, .. } => {
                     direction[m] = quad(axis.get(values));
@@ -368,15 +381,31 @@ impl Loads {
         self.list.iter_mut().map(power).sum()
     }
 
-    /// The part of h within which friction is near its series.
-    pub fn limit(&self, h: f64, order: usize) -> f64 {
+    /// The part of h within which friction and prescribed forces are near their series, to a tolerance.
+    pub fn limit(&self, h: f64, order: usize, tolerance: f64) -> f64 {
         self.list.iter().fold(h, |h, load| match load {
-            Load::Given { .. } => h,
+            Load::Given { local, .. } => converging(|k| local[k].norm(), local.len(), h, order, tolerance),
             Load::Spring { law, .. } | Load::Torsion { law, .. } | Load::Slider { law, .. } => {
-                law.limit(h, order)
+                let h = law.limit(h, order);
+                converging(|k| law.drive[k].abs(), law.drive.len(), h, order, tolerance)
             }
         })
     }
+}
+
+/// The part of h within which terms of these sizes fall fast, of which a step of this order takes two less.
+fn converging(size: impl Fn(usize) -> f64, terms: usize, h: f64, order: usize, tolerance: f64) -> f64 {
+    if terms < FALLING + 3 || order < 3 {
+        return h;
+    }
+    let two = |last: usize| size(last) + size(last - 1);
+    let (last, before) = (two(terms - 1), two(terms - 1 - FALLING));
+    let taken = order - 2;
+    let added = two(taken) * libm::pow(h, taken as f64);
+    if last == 0.0 || before == 0.0 || added <= SETTLED * tolerance * (1.0 + size(0)) {
+        return h;
+    }
+    h.min(NEAR_SINGULAR * libm::pow(before / last, 1.0 / FALLING as f64))
 }
 
 /// The force on the second point of a spring: f / l times the way between its points.

@@ -181,7 +181,8 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
                 proven: false,
             };
         }
-        let most = self.loads.limit(self.angles.limit(natural.min(left), order, MAX_TURN), order);
+        let turned = self.angles.limit(natural.min(left), order, MAX_TURN);
+        let most = self.loads.limit(turned, order, plan.tolerance);
         let beside = self.loads.limit_passing(most, order, met(plan.tolerance, plan.length));
         let mut h = beside.max(shortest_step(start, plan.end)).min(most);
         // A longer series would not make a step longer that something else keeps short.

@@ -256,13 +256,43 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
         }
         self.place(series, 1.0);
         self.twin.linearize();
+        if let Some(time) = self.go_beyond(series) {
+            self.turn_round(series, time);
+        }
         let after = self.differ(series, 1.0, length);
+        self.twin.loads.stay();
         let grows = after.is_nan() || after > GROWTH * before.max(NEAR * length);
         if grows && before > DISTURBANCE * length && (self.last_terms() > DIVERGES * after || after.is_nan())
         {
             self.carry_part(series, DISTURBANCE * length / before, length);
             self.unfinished = false;
         }
+    }
+
+    /// When points of springs pass each other in the motion without its error, within the step, s.
+    fn go_beyond(&mut self, series: &Series<L, B>) -> Option<f64> {
+        let Series { loads, values, .. } = &mut self.twin;
+        loads.go_beyond(&series.loads, self.step.1, values)
+    }
+
+    /// Lets points of springs pass each other in the motion without its error at the start of the step, and not a little later: what the
+    /// forces do until they turn round, it does at once.
+    fn turn_round(&mut self, series: &Series<L, B>, later: f64) {
+        self.twin.evaluate_here();
+        for (beyond, q) in self.beside.iter_mut().zip(self.twin.q.chunks(self.twin.stride)) {
+            *beyond = q[2];
+        }
+        self.twin.loads.stay();
+        self.twin.evaluate_here();
+        let here = self.twin.q.chunks(self.twin.stride);
+        for ((error, q), beyond) in self.error.iter_mut().zip(here).zip(&self.beside) {
+            // Coefficients of order two are halves of accelerations.
+            let less = moved::<L, B>(&error[1], -2.0 * later, &q[2]);
+            error[1] = moved::<L, B>(&less, 2.0 * later, beyond);
+        }
+        self.place(series, 1.0);
+        self.twin.linearize();
+        self.go_beyond(series);
     }
 
     /// Carries it over a part of the last step, by what was found of it.

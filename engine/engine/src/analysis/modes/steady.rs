@@ -70,6 +70,8 @@ pub struct Found {
     pub unfelt: Unfelt,
     /// A twist of the bodies by which the position may be off.
     pub off: DVector<f64>,
+    /// Part of the velocities by which they may be off.
+    pub slower: f64,
 }
 
 /// Finds the steady motion near the start, and holds the stage in it.
@@ -93,17 +95,17 @@ pub fn find(stage: &mut Stage) -> Result<Found, AnalysisError> {
     let names = stage.mechanism.system.model.bodies.iter().map(|body| body.name.clone());
     let told = SteadyMotion {
         turning: flow.turning.into(),
-        sliding: flow.sliding.into(),
+        sliding: flow.at_origin(symmetries.momenta.least).into(),
         spins: names
             .zip(&flow.spins)
             .filter(|(_, spin)| spin.rate != 0.0)
             .map(|(body, spin)| BodySpin { body, rate: spin.rate })
             .collect(),
     };
-    fits(stage)?;
+    let slower = fits(stage)?;
     lasting::lasts(stage)?;
     stage.rest();
-    Ok(Found { told, unfelt, off })
+    Ok(Found { told, unfelt, off, slower })
 }
 
 /// A twist less its part along others.
@@ -141,8 +143,8 @@ struct Symmetries {
 
 impl Symmetries {
     fn new(stage: &mut Stage) -> Result<Self, AnalysisError> {
-        let fields = Fields::new(&stage.mechanism.system.bodies, stage.mechanism.system.length);
         let at = stage.places(&stage.q);
+        let fields = Fields::new(&stage.mechanism.system.bodies, &at, stage.mechanism.system.length);
         let (twists, start) = (fields.twists(&at), stage.twists());
         let column = |vector: &DVector<f64>| DMatrix::from_column_slice(vector.len(), 1, vector.as_slice());
         let wanted = stage.rows_times(&column(&start)).column(0).into_owned();
@@ -285,19 +287,19 @@ fn turned_momenta(alike: &DMatrix<f64>, momenta: &DVector<f64>) -> DMatrix<f64> 
     out
 }
 
-/// Whether joints and drivers allow the steady motion at the held position.
-fn fits(stage: &mut Stage) -> Result<(), AnalysisError> {
+/// Whether joints and drivers allow the steady motion at the held position; by what part of the velocities it misses them.
+fn fits(stage: &mut Stage) -> Result<f64, AnalysisError> {
     stage.rest();
-    let fastest = largest_size(&stage.q_dot);
+    let fastest = largest_size(&stage.q_dot).max(f64::MIN_POSITIVE);
     let system = &stage.mechanism.system;
     let rates = violation::rates(system, &stage.mechanism.state);
     let worst = violation::worst(&rates).into_iter().next();
     match worst {
-        Some((id, rate)) if rate > MISSED * fastest.max(f64::MIN_POSITIVE) => Err(none(format!(
+        Some((id, rate)) if rate > MISSED * fastest => Err(none(format!(
             "\"{}\" does not let the bodies keep their places in one frame that turns and slides uniformly (a body may spin \
              only about an axis around which its moments of inertia are alike)",
             system[id].name
         ))),
-        _ => Ok(()),
+        worst => Ok(worst.map_or(0.0, |(_, rate)| rate / fastest)),
     }
 }
