@@ -124,7 +124,8 @@ impl Scale {
     pub(super) fn print_reaction(&self, reaction: &Reaction) {
         let line = |what: &str, unit: &str, components: &[ReactionComponent; 3], nothing: f64| {
             let number = |c: &ReactionComponent| {
-                format!("{}{:>14}", if c.unique { ' ' } else { '~' }, unless(c.value, nothing))
+                let value = unless(c.value, nothing);
+                format!("{:>15}", if c.unique { value } else { format!("~{value}") })
             };
             let numbers = components.each_ref().map(number).concat();
             print_line(&format!("    {what:<8}{numbers} {unit}"));
