@@ -4,6 +4,7 @@ use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use axum::http::StatusCode;
+use triad_lessons::files::OpensFile;
 use triad_lessons::seed::{SeedError, checked};
 use triad_lessons::{Known, Lesson, VariantError};
 
@@ -20,8 +21,9 @@ pub struct Variants {
     pub known: Known,
 }
 
-/// Slug and hash of a lesson, the hash of the version that deals, the seed, and whether verdicts are held back.
-type Key = (String, String, String, String, bool);
+/// Slug and hash of a lesson, the hash of the version that deals, the seed, what opens right answers, and whether verdicts are held
+/// back.
+type Key = (String, String, String, String, OpensFile, bool);
 
 #[derive(Debug, Default)]
 struct Kept {
@@ -41,7 +43,7 @@ impl Variants {
         }
         // A lesson that was edited since has another hash.
         let (slug, hash, dealer) = (lesson.slug.clone(), lesson.hash.clone(), lesson.dealer_hash());
-        let key = (slug, hash, dealer.to_owned(), seed.to_owned(), lesson.held);
+        let key = (slug, hash, dealer.to_owned(), seed.to_owned(), lesson.opens, lesson.held);
         let kept = self.lock().lessons.get(&key).cloned();
         if let Some(lesson) = kept {
             return Ok(lesson);

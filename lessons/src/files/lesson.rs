@@ -44,7 +44,7 @@ pub struct PartFile {
 
 /// When the right answer to a question and its source are shown to a student, whichever comes first. From then on the points
 /// of the question are what they were before.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OpensFile {
     /// When it has been answered right.

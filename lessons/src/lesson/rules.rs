@@ -86,22 +86,32 @@ fn tuning_rule(t: &Tuning) -> String {
     )
 }
 
-/// When a right answer is shown, in words.
-pub(super) fn opens(opens: OpensFile) -> Option<String> {
+/// When a right answer is shown, in words; or, where verdicts are held back, that none is, and the points are settled all the same.
+pub(super) fn opens(opens: OpensFile, held: bool) -> Option<String> {
     let times = |n: usize| if n == 1 { "one answer".to_owned() } else { format!("{n} different answers") };
     let mut when = Vec::new();
     if opens.right {
-        when.push("you have given it".to_owned());
+        when.push(if held { "you have given the right answer" } else { "you have given it" }.to_owned());
     }
     if let Some(n) = opens.attempts {
         when.push(format!("you have tried {}", times(n)));
     }
-    let mut text = format!("The right answer to a question is shown when {}", when.join(" or when "));
+    let begin = if held {
+        "Points are not told at once here, and until they are no right answer is shown. The points of a question are settled all \
+         the same when "
+    } else {
+        "The right answer to a question is shown when "
+    };
+    let mut text = format!("{begin}{}", when.join(" or when "));
     if let Some(n) = opens.choices {
         let start = if when.is_empty() { "of a choice you have tried" } else { ", of a choice" };
         let _ = write!(text, "{start} {}", times(n));
     }
-    text.push_str(". From then on its points stay as they are.");
+    text.push_str(if held {
+        ". From then on they stay as they are, whatever you hand in, and you are not told of it."
+    } else {
+        ". From then on its points stay as they are."
+    });
     (opens != OpensFile::default()).then_some(text)
 }
 

@@ -47,7 +47,7 @@ impl Lesson {
                 conventions_html: Scene::from_json(&self.scene.to_string())
                     .map(|scene| markdown::render_short(&conventions(&scene)))
                     .unwrap_or_default(),
-                opens: opens(self.opens),
+                opens: opens(self.opens, self.held),
                 questions: self.exercise.questions.iter().map(QuestionView::new).collect(),
             },
         }

@@ -60,8 +60,13 @@ pub fn possible(lesson: &Lesson) -> f64 {
 
 /// Points that are enough to pass a lesson.
 pub fn pass_points(lesson: &Lesson) -> f64 {
+    enough(lesson.exercise.pass_mark, lesson.exercise.possible())
+}
+
+/// Points that are enough to pass, of those that can be earned.
+fn enough(pass_mark: f64, possible: f64) -> f64 {
     // The last digits of a sum of points are rounding.
-    lesson.exercise.pass_mark * lesson.exercise.possible() * (1.0 - 1e-12)
+    pass_mark * possible * (1.0 - 1e-12)
 }
 
 impl Entry {
@@ -92,7 +97,9 @@ impl Entry {
 
     /// Points for having predicted what a run would show. They count besides what the exercise earns, and pass nothing.
     pub fn predicted(&self, lesson: &Lesson) -> f64 {
-        self.predicted.iter().filter_map(|(id, _)| lesson.prediction(id)).map(|one| one.points).sum()
+        let points = self.predicted.iter().filter_map(|(id, _)| lesson.prediction(id)).map(|one| one.points);
+        // The sum of nothing has the sign of a minus.
+        points.sum::<f64>() + 0.0
     }
 
     /// Points that people gave for explanations. They count besides what the exercise earns, and pass nothing.
@@ -103,7 +110,7 @@ impl Entry {
             // A course that was changed since gives no more than it has.
             points.min(question.points)
         };
-        asked.map(given).sum()
+        asked.map(given).sum::<f64>() + 0.0
     }
 
     /// Whether there is a grade to tell: without one a cell stays empty, which is not 0.
@@ -128,7 +135,9 @@ impl Book {
             book.assignments.insert(assignment.lesson.clone(), assignment);
         }
         for row in store.handed(course, person, lesson).await? {
-            book.entry(row.person, row.lesson).handed.push(row.handed);
+            // What was enough when it was graded is enough, however the lesson was edited since.
+            let pass = store.pass_mark(&row.lesson_sha256).await?.map(|mark| enough(mark, row.possible));
+            book.entry(row.person, row.lesson).handed.push(Handed { pass, ..row.handed });
         }
         for one in store.predictions(course, person, lesson).await? {
             if one.choice.is_some() {

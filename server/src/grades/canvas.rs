@@ -6,11 +6,11 @@
 use std::collections::{HashMap, HashSet};
 
 use axum::http::StatusCode;
-use csv::ReaderBuilder;
+use csv::{ReaderBuilder, StringRecord};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::exports::{quoted, title_of};
+use super::exports::{cell, quoted, title_of};
 use super::{GradeTable, GradedLesson, StudentRow};
 use crate::problem::Problem;
 use crate::store::names::key;
@@ -18,8 +18,11 @@ use crate::store::names::key;
 /// The columns by which Canvas knows people; every export has the first four or all of them.
 const PEOPLE: [&str; 6] = ["Student", "ID", "SIS User ID", "SIS Login ID", "Integration ID", "Section"];
 
+/// What the row above the people begins with.
+const POSSIBLE: &str = "Points Possible";
+
 /// A table to be imported into Canvas, and what could not be filled in.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Filled {
     /// The table as CSV: the columns about people, and those in which something changed.
     pub csv: String,
@@ -33,6 +36,19 @@ pub struct Filled {
     pub unknown: Vec<String>,
     /// Names here that are not in the table, or more than once.
     pub missing: Vec<String>,
+    /// Columns of lessons with other `Points Possible` than here: Canvas takes the points as they are, and other shares from them.
+    pub other_points: Vec<OtherPoints>,
+}
+
+/// A column with other points than its lesson.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct OtherPoints {
+    /// The column's title.
+    pub column: String,
+    /// Points that can be earned by it in Canvas.
+    pub there: f64,
+    /// Points that can be earned in the lesson.
+    pub here: f64,
 }
 
 /// Fills what everybody has reached into a table that Canvas exported. A cell is never emptied, and who is
@@ -40,17 +56,8 @@ pub struct Filled {
 ///
 /// Errors if it is no such table.
 pub fn fill(exported: &str, table: &GradeTable) -> Result<Filled, Problem> {
-    let mut reader = ReaderBuilder::new()
-        .flexible(true)
-        .has_headers(false)
-        .from_reader(exported.trim_start_matches('\u{feff}').as_bytes());
-    let rows: Result<Vec<Vec<String>>, csv::Error> =
-        reader.records().map(|row| row.map(|row| row.iter().map(str::to_owned).collect())).collect();
-    let mut rows = rows.map_err(|error| no_export(&format!("it cannot be read as CSV: {error}")))?;
+    let (separator, mut rows) = read(exported)?;
     let head = rows.first().cloned().unwrap_or_default();
-    if head.first().map(String::as_str) != Some("Student") || !head.iter().any(|title| title == "ID") {
-        return Err(no_export("its first line does not begin with Student and ID"));
-    }
     let columns: Vec<(usize, &GradedLesson)> =
         head.iter().enumerate().filter_map(|(at, title)| Some((at, lesson_of(title, table)?))).collect();
     let students: HashMap<String, &StudentRow> =
@@ -62,6 +69,7 @@ pub fn fill(exported: &str, table: &GradeTable) -> Result<Filled, Problem> {
         without_column: Vec::new(),
         unknown: Vec::new(),
         missing: Vec::new(),
+        other_points: other_points(&rows, &columns),
     };
     let here = |row: &[String]| spellings(&row[0]).iter().find_map(|name| students.get(name)).copied();
     let mut seen: HashMap<&str, usize> = HashMap::new();
@@ -80,8 +88,9 @@ pub fn fill(exported: &str, table: &GradeTable) -> Result<Filled, Problem> {
             let Some(reached) = student.lessons.get(&lesson.slug) else { continue };
             // Who is excused there stays so.
             let is_excused = row[*at].trim().eq_ignore_ascii_case("EX");
-            if !is_excused && row[*at].trim().parse() != Ok(reached.points) {
-                row[*at] = reached.points.to_string();
+            let grade = cell(reached.points);
+            if !is_excused && number(&row[*at]) != number(&grade) {
+                row[*at] = grade;
                 filled.changed += 1;
                 touched.insert(*at);
             }
@@ -99,8 +108,55 @@ pub fn fill(exported: &str, table: &GradeTable) -> Result<Filled, Problem> {
     let of_row =
         |row: &Vec<String>| kept.iter().map(|at| row.get(*at).cloned().unwrap_or_default()).collect();
     // What Canvas wrote it knows again only byte by byte.
-    filled.csv = quoted(&rows.iter().map(of_row).collect::<Vec<Vec<String>>>())?;
+    filled.csv = quoted(&rows.iter().map(of_row).collect::<Vec<Vec<String>>>(), separator)?;
     Ok(filled)
+}
+
+/// The rows of what Canvas exported, and what separates their cells: a semicolon for those whose numbers have decimal commas. Canvas
+/// reads both again.
+///
+/// Errors if it is no such table.
+fn read(exported: &str) -> Result<(u8, Vec<Vec<String>>), Problem> {
+    let text = exported.trim_start_matches('\u{feff}');
+    for separator in [b',', b';'] {
+        let reader = ReaderBuilder::new()
+            .delimiter(separator)
+            .flexible(true)
+            .has_headers(false)
+            .from_reader(text.as_bytes());
+        let cells = |row: StringRecord| row.iter().map(str::to_owned).collect();
+        let rows: Result<Vec<Vec<String>>, csv::Error> =
+            reader.into_records().map(|row| row.map(cells)).collect();
+        let rows = rows.map_err(|error| no_export(&format!("it cannot be read as CSV: {error}")))?;
+        let head = rows.first().map(Vec::as_slice).unwrap_or_default();
+        if head.first().is_some_and(|title| title == "Student") && head.iter().any(|title| title == "ID") {
+            return Ok((separator, rows));
+        }
+    }
+    Err(no_export("its first line does not begin with Student and ID"))
+}
+
+/// Columns in which Canvas has other points than their lessons.
+fn other_points(rows: &[Vec<String>], columns: &[(usize, &GradedLesson)]) -> Vec<OtherPoints> {
+    let is_possible = |row: &&Vec<String>| row.first().is_some_and(|name| name.trim() == POSSIBLE);
+    let (Some(head), Some(possible)) = (rows.first(), rows.iter().find(is_possible)) else {
+        return Vec::new();
+    };
+    let other = |(at, lesson): &(usize, &GradedLesson)| {
+        let there = number(possible.get(*at)?)?;
+        // Canvas has two decimals.
+        (cell(there) != cell(lesson.possible)).then(|| OtherPoints {
+            column: head[*at].clone(),
+            there,
+            here: lesson.possible,
+        })
+    };
+    columns.iter().filter_map(other).collect()
+}
+
+/// The number of a cell, with a decimal point or a comma.
+fn number(cell: &str) -> Option<f64> {
+    cell.trim().replace(',', ".").parse().ok()
 }
 
 /// The lesson of a column such as `02 Simple pendulum (4711)`, with or without its number.
@@ -116,7 +172,7 @@ fn lesson_of<'a>(column: &str, table: &'a GradeTable) -> Option<&'a GradedLesson
 
 /// Whether a row is about somebody: what stands above the people has no name, or `Points Possible`.
 fn is_person(row: &[String]) -> bool {
-    row.first().is_some_and(|name| !name.trim().is_empty() && name.trim() != "Points Possible")
+    row.first().is_some_and(|name| !name.trim().is_empty() && name.trim() != POSSIBLE)
 }
 
 /// `Lovelace, Ada` as Canvas writes it, and as people write it.
@@ -138,14 +194,8 @@ mod tests {
     use super::super::Reached;
     use super::*;
 
-    fn table() -> GradeTable {
-        let lesson = |number, slug: &str, title: &str| GradedLesson {
-            slug: slug.into(),
-            number,
-            title: title.into(),
-            possible: 12.0,
-        };
-        let reached = |points| Reached {
+    fn reached(points: f64) -> Reached {
+        Reached {
             points,
             earned: points,
             predicted: 0.0,
@@ -157,6 +207,15 @@ mod tests {
             extended: false,
             asked: false,
             decided: None,
+        }
+    }
+
+    fn table() -> GradeTable {
+        let lesson = |number, slug: &str, title: &str| GradedLesson {
+            slug: slug.into(),
+            number,
+            title: title.into(),
+            possible: 12.0,
         };
         let student = |id: &str, name: &str, lessons: &[(&str, f64)]| StudentRow {
             id: id.into(),
@@ -199,6 +258,36 @@ mod tests {
         assert_eq!((again.changed, again.found), (0, vec!["Pendulum (83)".to_owned()]));
     }
 
+    /// Canvas writes so where numbers have decimal commas, and reads both again (`gradebook_importer.rb`).
+    #[test]
+    fn semicolons_and_decimal_commas_are_read_and_semicolons_given_back() {
+        let exported = "Student;ID;Bodies (81);Pendulum (83)\n    Points Possible;;12,00;12,00\n\
+            \"Lovelace, Ada\";1;12,00;7,25\n";
+        let filled = fill(exported, &table()).unwrap();
+        let wanted = "\"Student\";\"ID\";\"Pendulum (83)\"\n\"    Points Possible\";\"\";\"12,00\"\n\
+            \"Lovelace, Ada\";\"1\";\"7.5\"\n";
+        assert_eq!((filled.csv.as_str(), filled.changed), (wanted, 1));
+        assert_eq!((filled.other_points, filled.unknown), (Vec::new(), Vec::new()));
+    }
+
+    #[test]
+    fn other_points_possible_are_told() {
+        let filled = fill(&EXPORTED.replace(",12,10,12", ",100,10,12.0"), &table()).unwrap();
+        let other = OtherPoints { column: "07 Bodies (81)".into(), there: 100.0, here: 12.0 };
+        assert_eq!(filled.other_points, [other]);
+        let read_only = fill(&EXPORTED.replace(",12,10,12", ",(read only),10,"), &table()).unwrap();
+        assert_eq!(read_only.other_points, []);
+    }
+
+    #[test]
+    fn points_have_the_digits_that_canvas_has() {
+        let mut sums = table();
+        sums.students[0].lessons.insert("b".into(), Reached { points: 0.3 * 3.0, ..reached(0.0) });
+        let filled = fill("Student,ID,Pendulum (83)\n\"Lovelace, Ada\",1,\n", &sums).unwrap();
+        assert!(filled.csv.ends_with("\"0.9\"\n"), "{}", filled.csv);
+        assert_eq!(fill(&filled.csv, &sums).unwrap().changed, 0);
+    }
+
     /// Whose grade it is, nobody here can tell apart.
     #[test]
     fn of_two_rows_of_one_name_neither_is_filled() {
@@ -221,7 +310,7 @@ mod tests {
 
     #[test]
     fn what_canvas_did_not_export_is_refused() {
-        for wrong in ["", "Name,Points\nAda,3\n", "Student;ID\n"] {
+        for wrong in ["", "Name,Points\nAda,3\n", "Student\tID\n", "Name;Student;ID\n"] {
             assert!(fill(wrong, &table()).is_err(), "{wrong:?}");
         }
     }

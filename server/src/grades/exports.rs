@@ -32,7 +32,7 @@ pub fn csv(table: &GradeTable, format: Format, title: &str) -> Result<String, Pr
     rows.push(lead.iter().map(|text| (*text).to_owned()).chain(table.lessons.iter().map(title_of)).collect());
     if format == Format::Canvas {
         let empty = std::iter::repeat_n(String::new(), lead.len() - 1);
-        let points = table.lessons.iter().map(|lesson| lesson.possible.to_string());
+        let points = table.lessons.iter().map(|lesson| cell(lesson.possible));
         rows.push(std::iter::once("    Points Possible".to_owned()).chain(empty).chain(points).collect());
     }
     for student in &table.students {
@@ -43,8 +43,7 @@ pub fn csv(table: &GradeTable, format: Format, title: &str) -> Result<String, Pr
             Format::Canvas => row.extend([String::new(), String::new(), String::new(), title.to_owned()]),
             Format::Moodle => row.push(String::new()),
         }
-        let points =
-            |lesson: &GradedLesson| student.lessons.get(&lesson.slug).map(|one| one.points.to_string());
+        let points = |lesson: &GradedLesson| student.lessons.get(&lesson.slug).map(|one| cell(one.points));
         row.extend(table.lessons.iter().map(|lesson| points(lesson).unwrap_or_default()));
         rows.push(row);
     }
@@ -92,19 +91,27 @@ struct Line<'a> {
 ///
 /// Errors if it cannot be written, which memory does not do.
 pub fn sheet(rows: &[Vec<String>]) -> Result<String, Problem> {
-    quoted(&rows.iter().map(|row| row.iter().map(|cell| harmless(cell)).collect()).collect::<Vec<_>>())
+    quoted(&rows.iter().map(|row| row.iter().map(|cell| harmless(cell)).collect()).collect::<Vec<_>>(), b',')
 }
 
 /// Rows as CSV: every cell quoted, and as it is.
 ///
 /// Errors if it cannot be written, which memory does not do.
-pub(super) fn quoted(rows: &[Vec<String>]) -> Result<String, Problem> {
-    let mut writer = WriterBuilder::new().quote_style(QuoteStyle::Always).from_writer(Vec::new());
+pub(super) fn quoted(rows: &[Vec<String>], separator: u8) -> Result<String, Problem> {
+    let mut writer =
+        WriterBuilder::new().delimiter(separator).quote_style(QuoteStyle::Always).from_writer(Vec::new());
     for row in rows {
         writer.write_record(row).map_err(Problem::internal)?;
     }
     let bytes = writer.into_inner().map_err(Problem::internal)?;
     String::from_utf8(bytes).map_err(Problem::internal)
+}
+
+/// Points as the page shows them, with two decimals at most: sums and shares have digits of rounding.
+pub(super) fn cell(points: f64) -> String {
+    let shown = format!("{points:.2}");
+    // Without zeros at the end, and without a sign before one.
+    shown.parse::<f64>().map_or(shown, |points| (points + 0.0).to_string())
 }
 
 /// The title under which a lesson stands in tables for other programs.
@@ -161,6 +168,18 @@ mod tests {
         assert_eq!(canvas.lines().nth(1), Some(r#""    Points Possible","","","","","12""#));
         assert_eq!(canvas.lines().nth(3), Some(r#""Zoë","","","","Mechanics","""#));
         assert!(csv(&small(), Format::Moodle, "").unwrap().starts_with("\"Full name\",\"ID number\","));
+    }
+
+    #[test]
+    fn points_are_written_as_they_are_shown() {
+        for (points, shown) in
+            [(0.3 * 3.0, "0.9"), (-0.0, "0"), (-0.001, "0"), (7.5, "7.5"), (2.0 / 3.0, "0.67")]
+        {
+            assert_eq!(cell(points), shown);
+        }
+        let mut table = small();
+        table.students[0].lessons.get_mut("a").unwrap().points = 0.3 * 3.0;
+        assert!(csv(&table, Format::Plain, "").unwrap().contains("\"0.9\""));
     }
 
     #[test]

@@ -16,7 +16,7 @@ use crate::problem::Problem;
 use crate::store::{DecisionKind, Member, Role, Store};
 
 pub use book::{Book, Entry, Marked, assigned, pass_points, possible, stands};
-pub use canvas::{Filled, fill};
+pub use canvas::{Filled, OtherPoints, fill};
 pub use exports::{Format, csv, lines, sheet};
 pub use record::{LessonRecord, Record, record, told};
 
@@ -116,7 +116,8 @@ fn reached(book: &Book, person: &str, lesson: &Lesson, now: Moment) -> Option<(S
         return None;
     }
     let one = Reached {
-        points: stands.score.points,
+        // A decision may have named a zero with a sign.
+        points: stands.score.points + 0.0,
         earned: stands.score.earned,
         predicted: entry.predicted(lesson),
         explained: entry.explained(lesson),

@@ -12,5 +12,5 @@ mod tests;
 
 pub use admission::{Refusal, admit};
 pub use moment::Moment;
-pub use rules::{Extension, InvalidPolicy, LateStep, Policy, Reveal, Times, When};
+pub use rules::{Extension, InvalidPolicy, LateStep, Policy, Reveal, Times, When, wrong_date};
 pub use standing::{Case, Credit, Decided, Handed, Phase, Revealed, Score, Standing, Turn, standing};

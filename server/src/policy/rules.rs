@@ -7,6 +7,10 @@ use super::moment::Moment;
 
 /// Most late steps, and most attempts whose worth is named one by one.
 const MOST_STEPS: usize = 50;
+/// Longest pause between attempts, in minutes: a year.
+const LONGEST_PAUSE: u32 = 525_600;
+/// The first and the last moment that a date may name, 1970-01-01 and 2999-12-31: what follows from them can still be written.
+const DATES: [Moment; 2] = [Moment(0), Moment(32_503_679_999_999)];
 
 /// How an exercise is handed in. What is left out bounds nothing.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -111,20 +115,17 @@ pub struct Times {
     pub closes: Option<Moment>,
 }
 
+/// What is wrong with a date by itself; nothing where it lies within the years that can be named.
+pub fn wrong_date(name: &str, at: Option<Moment>) -> Option<String> {
+    at.filter(|at| *at < DATES[0] || *at > DATES[1])
+        .map(|_| format!("{name} lies outside of the years 1970 to 2999"))
+}
+
 impl Policy {
-    /// Errors if its dates or shares contradict each other.
+    /// Errors if its dates or shares contradict each other, or lie outside of what can be written.
     pub fn check(&self) -> Result<(), InvalidPolicy> {
         let wrong = |place: String, problem: &str| Err(InvalidPolicy { place, problem: problem.to_owned() });
-        let mut before = self.opens;
-        let dates = [("/due".to_owned(), self.due)].into_iter();
-        let steps =
-            self.late.iter().enumerate().map(|(k, step)| (format!("/late/{k}/until"), Some(step.until)));
-        for (place, at) in dates.chain(steps).chain([("/closes".to_owned(), self.closes)]) {
-            if at.is_some() && at < before {
-                return wrong(place, "it lies before what should come first");
-            }
-            before = at.or(before);
-        }
+        self.check_dates()?;
         if self.due.is_none() && !self.late.is_empty() {
             return wrong("/late".to_owned(), "nothing is late without a due date");
         }
@@ -140,12 +141,33 @@ impl Policy {
                 return wrong(place.to_owned(), "a later one counts more than the one before it");
             }
         }
+        if self.cooldown_minutes > LONGEST_PAUSE {
+            let problem = format!("cooldown_minutes is more than {LONGEST_PAUSE}, a year");
+            return wrong("/cooldown_minutes".to_owned(), &problem);
+        }
         if self.most_attempts == Some(0) {
             return wrong("/most_attempts".to_owned(), "nobody could hand in");
         }
         let Reveal { points, messages, reference } = self.reveal;
         if self.due.is_none() && [points, messages, reference].contains(&When::AfterDue) {
             return wrong("/reveal".to_owned(), "there is no due date after which to tell it");
+        }
+        Ok(())
+    }
+
+    fn check_dates(&self) -> Result<(), InvalidPolicy> {
+        let mut before = None;
+        let named = |name: &str, at| (format!("/{name}"), at);
+        let steps = (0..).zip(&self.late).map(|(k, step)| (format!("/late/{k}/until"), Some(step.until)));
+        let first = [named("opens", self.opens), named("due", self.due)].into_iter();
+        for (place, at) in first.chain(steps).chain([named("closes", self.closes)]) {
+            let wrong = wrong_date(&place[1..], at);
+            let early =
+                (at.is_some() && at < before).then(|| "it lies before what should come first".to_owned());
+            if let Some(problem) = wrong.or(early) {
+                return Err(InvalidPolicy { place, problem });
+            }
+            before = at.or(before);
         }
         Ok(())
     }

@@ -20,6 +20,8 @@ pub struct Handed {
     pub judged: bool,
     /// Points that it earned.
     pub earned: f64,
+    /// Points that are enough to pass by the lesson that judged it; `None`: as many as now.
+    pub pass: Option<f64>,
 }
 
 /// What somebody decided about the points.
@@ -49,7 +51,7 @@ pub struct Case<'a> {
     pub handed: &'a [Handed],
     /// What was decided about it, in any order.
     pub decided: &'a [Decided],
-    /// Points that are enough to pass.
+    /// Points that are enough to pass, as the lesson is now.
     pub pass: f64,
 }
 
@@ -183,6 +185,11 @@ pub fn standing(case: &Case<'_>, now: Moment) -> Standing {
     // A decision that names no points takes the one of before back.
     let decided = decided.filter(|one| one.points.is_some());
     let points = decided.and_then(|one| one.points).unwrap_or(counted);
+    let enough = |one: Option<&Credit>| {
+        let of =
+            |one: &Credit| judged.iter().find(|handed| handed.id == one.id).and_then(|handed| handed.pass);
+        one.and_then(of).unwrap_or(case.pass)
+    };
     let attempts = u32::try_from(judged.len()).unwrap_or(u32::MAX);
     let made: Vec<Moment> = judged.iter().map(|one| one.at).collect();
     let turn = Turn {
@@ -198,7 +205,11 @@ pub fn standing(case: &Case<'_>, now: Moment) -> Standing {
     let score = Score {
         points,
         earned: judged.iter().map(|one| one.earned).fold(0.0, f64::max),
-        passed: (last.is_some() || decided.is_some()) && points >= case.pass,
+        passed: match decided {
+            Some(_) => points >= enough(best),
+            None if credits.is_empty() => last.is_some() && points >= case.pass,
+            None => credits.iter().any(|one| one.points >= enough(Some(one))),
+        },
         late: best.is_some_and(|best| best.on_time < 1.0),
         decided: decided.cloned(),
         credits,

@@ -30,8 +30,14 @@ fn policy() -> impl Strategy<Value = Policy> {
 fn handed() -> impl Strategy<Value = Vec<Handed>> {
     let one = (0..50 * DAY, any::<bool>(), 0.0..12.0);
     prop::collection::vec(one, 0..8).prop_map(|all| {
-        let one =
-            |(n, (at, judged, earned))| Handed { id: format!("{n}"), n, at: Moment(at), judged, earned };
+        let one = |(n, (at, judged, earned))| Handed {
+            id: format!("{n}"),
+            n,
+            at: Moment(at),
+            judged,
+            earned,
+            pass: None,
+        };
         (0..).zip(all).map(one).collect()
     })
 }
@@ -109,7 +115,7 @@ proptest! {
         prop_assert_eq!(admitted.is_ok(), !matches!(said.turn.phase, Phase::NotOpen | Phase::Closed) && said.turn.attempts_left != Some(0));
         if admitted.is_ok() {
             let mut with = before;
-            with.push(Handed { id: "new".into(), n: i64::MAX, at: now, judged: true, earned: 10.0 });
+            with.push(Handed { id: "new".into(), n: i64::MAX, at: now, judged: true, earned: 10.0, pass: None });
             let credits = standing(&case(&policy, &with, None), now).score.credits;
             let new = credits.iter().find(|one| one.id == "new").map(|one| one.points);
             prop_assert_eq!(new, Some(10.0 * said.turn.worth));
@@ -122,7 +128,7 @@ fn at(day: i64) -> Moment {
 }
 
 fn earned(day: i64, earned: f64) -> Handed {
-    Handed { id: format!("{day}"), n: day, at: at(day), judged: true, earned }
+    Handed { id: format!("{day}"), n: day, at: at(day), judged: true, earned, pass: None }
 }
 
 #[test]

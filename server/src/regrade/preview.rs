@@ -19,7 +19,7 @@ use crate::aside;
 use crate::grades::{Book, Entry, assigned, stands};
 use crate::policy::Moment;
 use crate::problem::Problem;
-use crate::store::{Assignment, NewRegrade, NewVerdict, Recorded, Store, StoreError};
+use crate::store::{Assignment, NewRegrade, NewVerdict, Recorded, Ruled, Store, StoreError};
 use crate::variants::Variants;
 use crate::work::Asker;
 
@@ -37,6 +37,7 @@ pub struct PreparedRegrade {
     /// The lessons that graded, as bundles: first as it is assigned now.
     bundles: Vec<String>,
     verdicts: usize,
+    ruled: Ruled,
     /// What this program computed for it: none where graders did.
     pub made: triad_lessons::Computed,
 }
@@ -118,6 +119,7 @@ impl PreparedRegrade {
             reason: reason.to_owned(),
             bundles: self.bundles.clone(),
             verdicts: self.verdicts,
+            ruled: self.ruled.clone(),
             new: new.collect(),
             people: chosen.iter().map(|(one, _)| (one.person.clone(), one.before, one.after)).collect(),
         }
@@ -136,6 +138,8 @@ pub async fn preview(
     progress: Arc<Progress>,
 ) -> Result<PreparedRegrade, Problem> {
     let started = Instant::now();
+    // Asked for first: what is said meanwhile is then found out as the regrade is applied.
+    let ruled = store.ruled(course, &lesson.slug).await?;
     let book = Book::open(store, course, None, Some(&lesson.slug)).await?;
     let assignment = book.assignment(&lesson.slug).cloned().unwrap_or_else(|| Assignment::of(&lesson.slug));
     let new = assigned(lesson, &assignment.policy);
@@ -178,7 +182,7 @@ pub async fn preview(
     let all = people.iter().flat_map(|(_, graded)| graded);
     shown.of_other_versions = all.filter(|one| one.record.lesson_sha256 != one.version).count();
     shown.seconds = started.elapsed().as_secs_f64();
-    Ok(PreparedRegrade { shown, people, bundles, verdicts, made })
+    Ok(PreparedRegrade { shown, people, bundles, verdicts, ruled, made })
 }
 
 /// What each person was told, in the order of the log.
@@ -206,6 +210,7 @@ fn person_change(
         if let Some(new) = new {
             handed.earned = new["earned"].as_f64().unwrap_or_default();
             handed.judged = new["gradable"] == true;
+            handed.pass = None;
         }
     }
     let stands = |entry: &Entry| stands(assignment, entry, lesson, now);

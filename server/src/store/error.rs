@@ -89,9 +89,12 @@ pub enum StoreError {
     /// The exercise cannot be handed in now.
     #[error(transparent)]
     Refused(#[from] Refusal),
-    /// Something was handed in or regraded since a preview was computed.
-    #[error("something was handed in or regraded since this preview was made")]
-    OutOfDate,
+    /// Something that points follow from is not as it was when a preview was computed.
+    #[error("{0}")]
+    OutOfDate(&'static str),
+    /// Somebody else has set the policy since it was read.
+    #[error("the policy of this lesson was set anew since you read it")]
+    PolicyChanged,
     /// A later regrade of the same lesson is in force.
     #[error("a later regrade of this lesson is in force")]
     NotLast,
@@ -297,10 +300,15 @@ impl From<StoreError> for Problem {
                  and --quota",
             ),
             StoreError::Refused(refusal) => refused(*refusal),
-            StoreError::OutOfDate => (
+            StoreError::OutOfDate(_) => (
                 StatusCode::CONFLICT,
                 "out-of-date",
                 "nothing was changed: make the preview anew, then apply it",
+            ),
+            StoreError::PolicyChanged => (
+                StatusCode::CONFLICT,
+                "policy-changed",
+                "nothing was changed: look at what is set now, then set yours in its place if it is still right",
             ),
             StoreError::NotLast => (StatusCode::CONFLICT, "not-the-last", "take the later one back first"),
             StoreError::NameTaken(_) => (

@@ -4,6 +4,7 @@
 //! What is handed in and judged is a record that is added to, never changed. What is acknowledged is on the disk: a submission is
 //! written whole or not at all, and through, alone or together with others, before it returns.
 
+mod audit;
 mod bell;
 mod class;
 mod copies;
@@ -23,6 +24,8 @@ mod nodes;
 mod on_both;
 #[cfg(all(test, unix))]
 mod on_both_queue;
+#[cfg(all(test, unix))]
+mod on_both_rulings;
 mod people;
 mod predictions;
 mod queue;
@@ -30,6 +33,7 @@ mod quotas;
 mod random;
 mod records;
 mod rooms;
+mod rulings;
 mod schema;
 mod sql;
 mod submissions;
@@ -37,9 +41,11 @@ mod submissions;
 mod tests;
 mod together;
 mod transaction;
+mod versions;
 
+use std::collections::HashMap;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use sqlx::Any;
@@ -49,7 +55,7 @@ use tokio::sync::Notify;
 use bell::Verdicts;
 pub use bell::{Awaited, Bell};
 pub use class::{
-    Assignment, Decision, DecisionKind, HandedRow, NewRegrade, NewVerdict, RegradeRow, Regraded, Said,
+    Assignment, Decision, DecisionKind, HandedRow, NewRegrade, NewVerdict, RegradeRow, Regraded, Ruled, Said,
     VerdictHistory,
 };
 pub use copies::{Copied, Imported, OwnEvent, Pieces, restore};
@@ -90,6 +96,8 @@ pub struct Store {
     work: Notify,
     /// Tells students in this program that their verdicts are there.
     verdicts: Verdicts,
+    /// What is enough to pass versions of lessons that were asked for, by SHA-256.
+    pass_marks: Mutex<HashMap<String, Option<f64>>>,
 }
 
 impl Store {
@@ -137,6 +145,7 @@ impl Store {
             server: None,
             work: Notify::new(),
             verdicts: Verdicts::default(),
+            pass_marks: Mutex::default(),
         }
     }
 
@@ -219,7 +228,7 @@ impl Store {
         let courses: Vec<(String,)> = sqlx::query_as(sql::COURSES).fetch_all(&mut *connection).await?;
         let mut found = Vec::new();
         for (course,) in courses {
-            found.extend(log::faults(&mut connection, &course).await?);
+            found.extend(audit::faults(&mut connection, &course).await?);
         }
         Ok(found)
     }

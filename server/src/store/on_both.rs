@@ -340,7 +340,7 @@ async fn every_statement_is_understood() {
 async fn of_two_hundred_at_once_three_attempts_are_three() {
     let store = Arc::new(fresh().await);
     let three = Policy { most_attempts: Some(3), ..Policy::default() };
-    store.set_policy(HOME, "triad", "pendulum", &three).await.expect("sets");
+    store.set_policy(HOME, "triad", "pendulum", &three, None).await.expect("sets");
     let sent: Vec<_> = (0..200)
         .map(|_| {
             let store = store.clone();

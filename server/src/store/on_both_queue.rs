@@ -117,7 +117,7 @@ async fn a_claim_that_is_lost_keeps_no_verdict() {
 async fn what_ends_its_graders_is_put_aside() {
     let store = fresh().await;
     let once = Policy { most_attempts: Some(1), ..Policy::default() };
-    store.set_policy(HOME, "triad", "pendulum", &once).await.expect("sets");
+    store.set_policy(HOME, "triad", "pendulum", &once, None).await.expect("sets");
     let id = enqueue(&store, "Ada", "pendulum").await;
     for start in 1..=STARTS {
         assert_eq!(claim(&store, Duration::ZERO).await.expect("one").start, start);
@@ -170,7 +170,7 @@ async fn what_a_program_cannot_read_is_left_to_others_and_was_not_begun() {
 async fn attempts_that_wait_are_counted() {
     let store = Arc::new(fresh().await);
     let three = Policy { most_attempts: Some(3), ..Policy::default() };
-    store.set_policy(HOME, "triad", "pendulum", &three).await.expect("sets");
+    store.set_policy(HOME, "triad", "pendulum", &three, None).await.expect("sets");
     hand_in(&store, &new("Ada")).await.expect("keeps");
     let sent: Vec<_> = (0..40)
         .map(|k| {

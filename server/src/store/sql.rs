@@ -213,6 +213,8 @@ statements! {
     EXTENSIONS = "SELECT e.person, a.slug, e.until, e.attempts, e.reason, p.name, e.given_at FROM extension e \
         JOIN assignment a ON a.id = e.assignment JOIN person p ON p.id = e.given_by WHERE a.course = $1 \
         AND (CAST($2 AS TEXT) IS NULL OR e.person = $2) AND (CAST($3 AS TEXT) IS NULL OR a.slug = $3)";
+    EXTENSION_ROWS = "SELECT a.slug, e.person, e.until, e.attempts, e.reason, e.given_by, e.given_at FROM extension e \
+        JOIN assignment a ON a.id = e.assignment WHERE a.course = $1";
     ADD_EXTENSION = "INSERT INTO extension (assignment, person, until, attempts, reason, given_by, given_at) \
         VALUES ($1, $2, $3, $4, $5, $6, $7)";
     REMOVE_EXTENSION = "DELETE FROM extension WHERE assignment = $1 AND person = $2";
@@ -308,6 +310,11 @@ statements! {
     DECISIONS = "SELECT d.person, a.slug, d.kind, d.question, d.amount, d.reason, p.name, d.decided_at FROM decision d \
         JOIN assignment a ON a.id = d.assignment JOIN person p ON p.id = d.decided_by WHERE d.course = $1 \
         AND (CAST($2 AS TEXT) IS NULL OR d.person = $2) AND (CAST($3 AS TEXT) IS NULL OR a.slug = $3) ORDER BY d.n";
+    // Remarks and requests decide nothing.
+    LAST_DECISION = "SELECT COALESCE(MAX(d.n), 0) FROM decision d JOIN assignment a ON a.id = d.assignment \
+        WHERE a.course = $1 AND a.slug = $2 AND d.kind IN ('points', 'mark')";
+    DECISION_ROWS = "SELECT d.n, d.person, a.slug, d.kind, d.question, d.amount, d.reason, d.decided_by, d.decided_at \
+        FROM decision d JOIN assignment a ON a.id = d.assignment WHERE d.course = $1 ORDER BY d.n";
 
     // Of the answers of whoever was erased nothing is judged again.
     VERDICT_COUNT = "SELECT COUNT(*) FROM verdict v JOIN submission s ON s.id = v.submission WHERE s.assignment = $1 \

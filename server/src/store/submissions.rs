@@ -244,33 +244,6 @@ impl Store {
         let rows: Vec<RecordedRow> = readable(list, &self.pools.readers).await?;
         Ok(rows.into_iter().map(recorded).collect())
     }
-
-    /// The lesson of that SHA-256, as it was when it graded something.
-    ///
-    /// Errors if it is not kept or the file cannot be read.
-    pub async fn lesson_version(&self, sha256: &str) -> Result<String, StoreError> {
-        let found = sqlx::query_as(sql::LESSON).bind(sha256).fetch_optional(&self.pools.readers).await?;
-        found.map(|(bundle,)| bundle).ok_or(StoreError::Unknown("version of a lesson"))
-    }
-
-    /// The versions of a lesson that are kept, as bundles, the earliest first.
-    ///
-    /// Errors if the file cannot be read.
-    pub async fn lesson_versions(&self, slug: &str) -> Result<Vec<String>, StoreError> {
-        let list = sqlx::query_as(sql::LESSON_VERSIONS).bind(slug);
-        let found: Vec<(String,)> = list.fetch_all(&self.pools.readers).await?;
-        Ok(found.into_iter().map(|(bundle,)| bundle).collect())
-    }
-
-    /// Keeps a version of a lesson before anything is handed in.
-    ///
-    /// Errors if it cannot be written.
-    pub async fn keep_lesson(&self, slug: &str, bundle: &str) -> Result<(), StoreError> {
-        let mut transaction = self.write().await?;
-        let add = sqlx::query(sql::ADD_LESSON).bind(sha256(bundle)).bind(slug).bind(bundle);
-        add.bind(now()).execute(&mut *transaction).await?;
-        transaction.commit().await
-    }
 }
 
 /// Keeps it, unless an earlier request of the same key did: then nothing that was done for it is wanted.

@@ -248,3 +248,97 @@ async fn a_student_asks_to_look_again_and_sees_what_is_answered() {
     course.class.ask("GET", &whole, &eve, None).await.problem(403, "not-yours");
     assert_eq!(course.class.ask("GET", &whole, &course.owner, None).await.json()["name"], "Ada");
 }
+
+/// Two who teach look at one policy; each sets something else.
+#[tokio::test]
+async fn a_policy_that_was_set_meanwhile_is_not_overwritten() {
+    let course = course().await;
+    let seen = async || {
+        let all = course.class.ask("GET", "/api/v1/assignments", &course.owner, None).await.json();
+        all.as_array().expect("a list").iter().find(|one| one["slug"] == LESSON).expect("the lesson").clone()
+    };
+    let set = async |version: &str, policy: Value| {
+        let path = format!("{POLICY}?version={version}");
+        course.class.ask("PUT", &path, &course.owner, Some(policy)).await
+    };
+    let first = seen().await["version"].as_str().expect("a version").to_owned();
+    let mine = set(&first, json!({"most_attempts": 3})).await;
+    assert_eq!(mine.status, 204);
+    let refused = set(&first, json!({"cooldown_minutes": 5})).await;
+    refused.problem(409, "policy-changed");
+    assert_eq!(seen().await["policy"]["most_attempts"], 3, "what was set first stays");
+    // Whoever set it goes on from there without looking again.
+    let tag = |reply: &Reply| reply.headers["etag"].to_str().expect("text").to_owned();
+    let second = tag(&mine).trim_matches('"').to_owned();
+    assert_eq!(seen().await["version"], json!(second));
+    assert_eq!(set(&second, json!({"most_attempts": 4})).await.status, 204);
+    // The same policy as before is the same version; without one whatever there is is replaced.
+    assert_eq!(tag(&course.set(json!({"most_attempts": 3})).await), format!("\"{second}\""));
+    assert_eq!(course.class.app.store.faults().await.expect("looks"), Vec::<String>::new());
+}
+
+#[tokio::test]
+async fn a_lesson_promises_no_right_answers_that_its_policy_does_not_tell() {
+    let course = course().await;
+    let promised = async |policy: Value| {
+        course.set(policy).await;
+        let lesson = course.see("/api/v1/lessons/simple-pendulum").await.json();
+        lesson["exercise"]["opens"].as_str().map(str::to_owned)
+    };
+    let usual = promised(json!({})).await.expect("a rule");
+    assert!(usual.contains("is shown when"), "{usual}");
+    for word in ["never", "when_released"] {
+        assert_eq!(promised(json!({"reveal": {"reference": word}})).await, None);
+    }
+    // Nothing is told, and the points are settled all the same: whoever hands in again knows it before.
+    let held = promised(json!({"reveal": {"points": "when_released"}})).await.expect("a rule");
+    assert!(held.contains("settled all the same") && held.contains("not told of it"), "{held}");
+    assert!(!held.contains("is shown when"), "{held}");
+    assert_eq!(promised(json!({})).await, Some(usual));
+}
+
+/// What cannot be written as a date would be told as none.
+#[tokio::test]
+async fn dates_and_pauses_beyond_all_bounds_are_refused_by_name() {
+    let course = course().await;
+    let far = "9999-12-30T18:00:00Z";
+    let late = json!({"due": from_now(1), "late": [{"until": far, "share": 0.5}]});
+    for (policy, place, said) in [
+        (json!({"cooldown_minutes": u32::MAX}), "/cooldown_minutes", "cooldown_minutes is more than 525600"),
+        (json!({"opens": "1890-01-01T00:00:00Z"}), "/opens", "opens lies outside of the years 1970 to 2999"),
+        (json!({"due": far}), "/due", "due lies outside of the years 1970 to 2999"),
+        (late, "/late/0/until", "late/0/until lies outside of the years 1970 to 2999"),
+        (json!({"closes": far}), "/closes", "closes lies outside of the years 1970 to 2999"),
+    ] {
+        let refused = course.set(policy).await.problem(422, "invalid-policy");
+        assert_eq!(refused["errors"][0]["pointer"], format!("#{place}"), "{refused}");
+        assert!(refused["detail"].as_str().is_some_and(|text| text.contains(said)), "{refused}");
+    }
+    let last = json!({"due": from_now(-1), "closes": "2999-12-31T23:59:59Z", "cooldown_minutes": 525_600});
+    assert_eq!(course.set(last).await.status, 204);
+    let extension = format!("{POLICY}/extensions/{}", course.id);
+    let body = json!({"until": far, "reason": "was ill"});
+    let refused = course.class.ask("PUT", &extension, &course.owner, Some(body)).await;
+    let refused = refused.problem(422, "invalid-extension");
+    assert_eq!(refused["detail"], "until lies outside of the years 1970 to 2999");
+    let body = json!({"until": "2999-12-31T23:59:59Z", "reason": "was ill"});
+    assert_eq!(course.class.ask("PUT", &extension, &course.owner, Some(body)).await.status, 204);
+    course.submit("1.000").await;
+    let turn = course.see("/api/v1/record").await.json()["lessons"][0]["standing"].clone();
+    for date in ["due", "closes", "next_attempt"] {
+        assert!(turn[date].as_str().is_some_and(|text| text.ends_with('Z')), "{date}: {turn}");
+    }
+}
+
+#[tokio::test]
+async fn exported_lines_have_no_zero_with_a_sign() {
+    let course = course().await;
+    assert_eq!(course.submit("1.000").await.status, 201);
+    let decisions = format!("/api/v1/people/{}/decisions", course.id);
+    let body = json!({"lesson": LESSON, "points": -0.0, "reason": "copied"});
+    assert_eq!(course.class.ask("POST", &decisions, &course.owner, Some(body)).await.status, 201);
+    let told = course.class.ask("GET", "/api/v1/standings.jsonl", &course.owner, None).await;
+    let text = String::from_utf8_lossy(&told.bytes).into_owned();
+    assert!(text.contains("\"predicted\":0.0") && text.contains("\"explained\":0.0"), "{text}");
+    assert!(text.contains("\"points\":0.0"), "{text}");
+}

@@ -290,3 +290,70 @@ async fn better_lowers_no_verdict_that_does_not_count_now() {
     again.set(&owner, json!({})).await;
     assert_eq!(again.points(&owner).await, [("Ada".to_owned(), 3.0), ("Bob".to_owned(), 3.0)].into());
 }
+
+/// Points before and after, and what is told of a regrade, follow from more than verdicts.
+#[tokio::test]
+async fn what_is_decided_set_or_allowed_meanwhile_makes_a_preview_stale() {
+    let class = class().await;
+    let (owner, _) = class.enter("/api/v1/setup", json!({"token": class.setup, "name": "Prof"})).await;
+    let (ada, told) = class.join("Ada").await;
+    class.submit(&ada, &class.tension(&ada).await).await;
+    let id = told["person"]["id"].as_str().expect("an id");
+    let class = class.again(mended().into()).await;
+    let (people, lesson) = (format!("/api/v1/people/{id}"), "/api/v1/assignments/simple-pendulum".to_owned());
+    let apply = async |seen: &Value| {
+        let path = format!("/api/v1/regrades/{}/apply", seen["id"].as_str().expect("an id"));
+        let body = json!({"choice": "replace", "reason": "mended"});
+        class.ask("POST", &path, &owner, Some(body)).await
+    };
+    let decision = json!({"lesson": "simple-pendulum", "points": 2, "reason": "agreed"});
+    let more = json!({"attempts": 1, "reason": "was ill"});
+    for (method, path, body, said) in [
+        ("POST", format!("{people}/decisions"), decision, "points were decided"),
+        ("PUT", lesson.clone(), json!({"most_attempts": 5}), "the policy was set anew"),
+        ("PUT", format!("{lesson}/extensions/{id}"), more, "an extension was given"),
+    ] {
+        let seen = class.look(&owner).await;
+        let done = class.ask(method, &path, &owner, Some(body)).await;
+        assert!(done.status.is_success(), "{path}: {}", done.status);
+        let refused = apply(&seen).await.problem(409, "out-of-date");
+        assert!(refused["detail"].as_str().is_some_and(|text| text.starts_with(said)), "{refused}");
+    }
+    assert_eq!(class.see(&owner, "/api/v1/regrades").await, json!([]), "nothing was changed");
+    // A remark decides nothing.
+    let seen = class.look(&owner).await;
+    let words = json!({"lesson": "simple-pendulum", "text": "Well done."});
+    let said = class.ask("POST", &format!("{people}/comments"), &owner, Some(words)).await;
+    assert_eq!((said.status.as_u16(), apply(&seen).await.status.as_u16()), (201, 204));
+}
+
+/// The course on the disk is another after a restart; what was graded is what it was.
+#[tokio::test]
+async fn an_edited_lesson_takes_no_pass_away_before_a_regrade() {
+    let class = class().await;
+    let (owner, _) = class.enter("/api/v1/setup", json!({"token": class.setup, "name": "Prof"})).await;
+    let ((ada, _), (bob, told)) = (class.join("Ada").await, class.join("Bob").await);
+    let lenient = course_with("simple-pendulum/exercise.toml", |exercise| {
+        let lenient = exercise.replacen("pass_mark = 0.7", "pass_mark = 0.2", 1);
+        assert_ne!(lenient, exercise);
+        lenient
+    });
+    let class = class.again(lenient.into()).await;
+    class.submit(&ada, &class.tension(&ada).await).await;
+    class.submit(&bob, "1.000").await;
+    let path = format!("/api/v1/people/{}/decisions", told["person"]["id"].as_str().expect("an id"));
+    let body = json!({"lesson": "simple-pendulum", "points": 2.5, "reason": "right in another frame"});
+    assert_eq!(class.ask("POST", &path, &owner, Some(body)).await.status, 201);
+    let passed = async |class: &Class| {
+        let table = class.see(&owner, "/api/v1/standings").await;
+        let of = |row: &Value| row["lessons"]["simple-pendulum"]["passed"] == true;
+        table["students"].as_array().expect("rows").iter().map(of).collect::<Vec<bool>>()
+    };
+    assert_eq!(passed(&class).await, [true, true], "of 12 points 2.4 are enough");
+    let class = class.again(mended().into()).await;
+    assert_eq!(passed(&class).await, [true, true], "now 10.5 of 15 are");
+    assert_eq!(class.see(&ada, "/api/v1/record").await["lessons"][0]["standing"]["points"]["passed"], true);
+    let seen = class.look(&owner).await;
+    class.apply(&owner, &seen, "replace").await;
+    assert_eq!(passed(&class).await, [false, false]);
+}

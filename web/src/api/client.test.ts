@@ -96,3 +96,16 @@ test("what is still asked of a run ends when the page leaves it", async () => {
     ["DELETE /api/v1/sessions/a", undefined],
   ]);
 });
+
+test("a policy is set in the place of the one that was read, and its own version is learnt", async () => {
+  const asked: string[] = [];
+  vi.stubGlobal("fetch", (path: string, request: { method: string }) => {
+    asked.push(`${request.method} ${path}`);
+    return Promise.resolve(new Response(null, { status: 204, headers: { etag: '"new"' } }));
+  });
+  expect(await api.setPolicy("screw", { most_attempts: 3 }, "old")).toBe("new");
+  expect(asked).toEqual(["PUT /api/v1/assignments/screw?version=old"]);
+  answering([409, { code: "policy-changed", title: "Policy changed", status: 409 }]);
+  const error: unknown = await api.setPolicy("screw", {}, "old").catch((error: unknown) => error);
+  expect(error instanceof ApiError && error.problem.code).toBe("policy-changed");
+});

@@ -288,7 +288,12 @@ export const api = {
   assignments: () => call<AssignedLesson[]>("GET", "/assignments"),
   /** What a class predicted and explained in a lesson. */
   classWords: (slug: string) => call<ClassWords>("GET", `/assignments/${id(slug)}/words`),
-  setPolicy: (slug: string, policy: Policy) => call<void>("PUT", `/assignments/${id(slug)}`, policy),
+  /** Sets a policy in the place of the version that was read; the version of the new one. */
+  setPolicy: async (slug: string, policy: Policy, version: string): Promise<string> => {
+    const path = `/assignments/${id(slug)}?${new URLSearchParams({ version })}`;
+    const answer = await ask("PUT", path, policy);
+    return (answer.headers.get("etag") ?? "").replaceAll('"', "");
+  },
   releaseResults: (slug: string, released: boolean) =>
     call<void>("PUT", `/assignments/${id(slug)}/release`, { released }),
   extend: (slug: string, person: string, body: { until?: string; attempts: number; reason: string }) =>

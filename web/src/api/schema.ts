@@ -229,6 +229,8 @@ export interface components {
             slug: string;
             /** @description Its title. */
             title: string;
+            /** @description Its version: whoever sends it with another policy overwrites nothing that was set meanwhile. */
+            version: string;
         };
         /** @description How the lessons are assigned, in the order of the course. */
         AssignmentList: components["schemas"]["AssignedLesson"][];
@@ -1057,6 +1059,8 @@ export interface components {
             found: string[];
             /** @description Names here that are not in the table, or more than once. */
             missing: string[];
+            /** @description Columns of lessons with other `Points Possible` than here: Canvas takes the points as they are, and other shares from them. */
+            other_points: components["schemas"]["OtherPoints"][];
             /** @description Names in the table whom nobody here has, or that stand there more than once: whose grade it is nobody knows. */
             unknown: string[];
             /** @description Lessons with grades that have no column: make an assignment of that title in Canvas, and export again. */
@@ -2661,6 +2665,21 @@ export interface components {
                 number,
                 number
             ] | null;
+        };
+        /** @description A column with other points than its lesson. */
+        OtherPoints: {
+            /** @description The column's title. */
+            column: string;
+            /**
+             * Format: double
+             * @description Points that can be earned in the lesson.
+             */
+            here: number;
+            /**
+             * Format: double
+             * @description Points that can be earned by it in Canvas.
+             */
+            there: number;
         };
         /** @description What came of a prediction. */
         Outcome: {

@@ -2,11 +2,12 @@
 import { api } from "../api/client";
 import type { ClassWords } from "../api/types";
 import { announce, authored, h, setText, uid } from "../core/dom";
-import { dateTime, points } from "../core/format";
+import { dateTime, points, typedNumber } from "../core/format";
 import { setMaths } from "../core/maths";
 import { t } from "../core/texts";
 import { dialog } from "../ui/dialog";
 import { problemNotice, skeleton } from "../ui/notice";
+import { numberField } from "./policy-fields";
 
 type Asked = ClassWords["explanations"][number];
 type Student = ClassWords["students"][number];
@@ -130,16 +131,9 @@ function explanation(words: ClassWords, who: Student, one: Explained, count: () 
   const most = words.explanations.find((asked) => asked.id === one.question)?.points ?? 0;
   const state = h("p", { class: "help", role: "status" }, stateOf(one, most));
   const [pointsId, remarkId] = [uid("points"), uid("remark")];
-  const given = h("input", {
-    id: pointsId,
-    class: "field number",
-    type: "number",
-    min: "0",
-    max: String(most),
-    step: "0.5",
-    required: true,
-    value: one.mark?.points == null ? "" : String(one.mark.points),
-  });
+  const given = numberField(one.mark?.points == null ? "" : String(one.mark.points), { low: 0, high: most });
+  given.id = pointsId;
+  given.required = true;
   const remark = h("input", {
     id: remarkId,
     class: "field",
@@ -160,7 +154,7 @@ function explanation(words: ClassWords, who: Student, one: Explained, count: () 
     const decided = {
       lesson: words.slug,
       question: one.question,
-      points: Number(given.value),
+      points: typedNumber(given.value),
       reason: remark.value.trim(),
     };
     api

@@ -248,6 +248,16 @@ function filledIn(filled: Filled): HTMLElement[] {
     line(t("Lessons without a column in the file"), filled.without_column),
     line(t("In the file, and not in this class"), filled.unknown),
     line(t("In this class, and not in the file"), filled.missing),
+    line(
+      t("Other points in Canvas than here"),
+      filled.other_points.map((one) =>
+        t("{column}: {there} there, {here} here", {
+          column: one.column,
+          there: points(one.there),
+          here: points(one.here),
+        }),
+      ),
+    ),
   ];
   return lines.filter((one) => one !== null);
 }

@@ -1,5 +1,6 @@
-// Fields of a policy: moments, numbers and shares, as they are shown and as they are typed.
+// Fields of a policy: moments, numbers, shares and people, as they are shown and as they are typed.
 
+import type { Somebody } from "../api/types";
 import { h } from "../core/dom";
 import { num, typedNumber, unclearComma } from "../core/format";
 import { t } from "../core/texts";
@@ -77,3 +78,19 @@ export const numberField = (value: string, takes: Takes): HTMLInputElement =>
 
 export const sharesField = (value: readonly number[]): HTMLInputElement =>
   checked({ class: "field", placeholder: "100, 90, 80", value: value.map(percent).join(", ") }, wrongShares);
+
+/** A field with its label above it. */
+export function labelled(label: string, input: HTMLElement, id: string): HTMLElement {
+  input.id = id;
+  return h("div", { class: "stack tight" }, h("label", { for: id }, label), input);
+}
+
+/** A choice of one student, or of none. */
+export function personChoice(students: Somebody[], none: string): HTMLSelectElement {
+  return h(
+    "select",
+    { class: "field" },
+    h("option", { value: "" }, none),
+    ...students.map((person) => h("option", { value: person.id }, person.name)),
+  );
+}

@@ -3,13 +3,14 @@
 import { api } from "../api/client";
 import type { KeptSubmission, LessonRecord, PersonRecord } from "../api/types";
 import { h } from "../core/dom";
-import { dateTime, points } from "../core/format";
+import { dateTime, points, typedNumber } from "../core/format";
 import { setMaths } from "../core/maths";
 import type { Page } from "../core/router";
 import { t } from "../core/texts";
 import { pointsOf, verdictLine } from "../exercise/verdict";
 import { dialog } from "../ui/dialog";
 import { empty, problemNotice, skeleton } from "../ui/notice";
+import { numberField } from "./policy-fields";
 import { remarksList } from "./record";
 import { renewWords } from "./words";
 
@@ -162,15 +163,11 @@ function typed(value: unknown): string {
 
 function decide(id: string, lesson: LessonRecord, again: () => void): void {
   const score = lesson.standing.points;
-  const amount = h("input", {
-    id: "decide-points",
-    class: "field number",
-    type: "number",
-    min: "0",
-    max: String(lesson.possible),
-    step: "any",
-    value: String(score?.points ?? 0),
-  });
+  // Without the last digits that doubles add.
+  const now = String(Number((score?.points ?? 0).toPrecision(15)));
+  const amount = numberField(now, { low: 0, high: lesson.possible });
+  amount.id = "decide-points";
+  amount.required = true;
   const reason = h("textarea", {
     id: "decide-reason",
     class: "field",
@@ -212,6 +209,6 @@ function decide(id: string, lesson: LessonRecord, again: () => void): void {
   const box = dialog(lesson.title, form);
   form.addEventListener("submit", (event) => {
     event.preventDefault();
-    send(Number(amount.value));
+    send(typedNumber(amount.value));
   });
 }

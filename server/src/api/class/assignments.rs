@@ -5,23 +5,25 @@
 
 use axum::Json as Answer;
 use axum::extract::State;
-use axum::http::StatusCode;
+use axum::http::{StatusCode, header};
+use axum::response::IntoResponse;
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
 use triad_lessons::Lesson;
+use utoipa::IntoParams;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use crate::api::describe::{PROBLEM, Schemas, of};
-use crate::api::extract::{Json, PathParameters};
+use crate::api::extract::{Json, PathParameters, QueryParameters};
 use crate::api::guard::Caller;
 use crate::api::lessons;
 use crate::api::lessons::told::{self, GradedSubmission};
 use crate::app::App;
 use crate::blocking;
 use crate::grades::{Book, Entry, stands};
-use crate::policy::{Extension, InvalidPolicy, Moment, Policy, Standing};
+use crate::policy::{Extension, InvalidPolicy, Moment, Policy, Standing, wrong_date};
 use crate::problem::Problem;
 use crate::store::{Assignment, CLASS, Query};
 
@@ -59,7 +61,7 @@ pub(super) fn text_of(typed: &str, place: &str) -> Result<String, Problem> {
 
 impl From<InvalidPolicy> for Problem {
     fn from(error: InvalidPolicy) -> Self {
-        let hint = "dates come in the order opens, due, late, closes; shares go from 0 to 1 and never rise";
+        let hint = "dates lie in the years 1970 to 2999, in the order opens, due, late, closes; shares go from 0 to 1 and never rise";
         let detail = format!("this cannot be set: {}", error.problem);
         Self::new(StatusCode::UNPROCESSABLE_ENTITY, "invalid-policy", detail, hint)
             .at(error.place, error.problem)
@@ -81,6 +83,8 @@ struct AssignedLesson {
     title: String,
     /// What is set.
     policy: Policy,
+    /// Its version: whoever sends it with another policy overwrites nothing that was set meanwhile.
+    version: String,
     /// When the results were released.
     #[serde(skip_serializing_if = "Option::is_none")]
     released: Option<Moment>,
@@ -119,6 +123,7 @@ async fn list(State(app): State<App>) -> Result<Answer<AssignmentList>, Problem>
             slug: lesson.slug.clone(),
             number: lesson.number,
             title: lesson.about.title.clone(),
+            version: assignment.version(),
             policy: assignment.policy,
             released: assignment.released,
             extensions: extensions.collect(),
@@ -128,24 +133,39 @@ async fn list(State(app): State<App>) -> Result<Answer<AssignmentList>, Problem>
     Ok(Answer(AssignmentList(app.course.lessons().iter().map(assigned).collect())))
 }
 
+/// In the place of what.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+struct InPlaceOf {
+    /// The `version` of the policy that is to be replaced, from the list of assignments or the last answer: if another is set by
+    /// now, it stays. Without it whichever there is is replaced.
+    version: Option<String>,
+}
+
 /// Set how a lesson is handed in and what is told of it. It replaces what was set before, and holds for what was handed in
 /// before too.
-#[utoipa::path(put, path = "/assignments/{slug}", operation_id = "set_policy", tag = "class", params(("slug" = String, Path)),
+#[utoipa::path(put, path = "/assignments/{slug}", operation_id = "set_policy", tag = "class",
+    params(("slug" = String, Path), InPlaceOf),
     request_body(content = ref(of::<Policy>()), example = json!({"due": "2026-12-01T18:00:00Z",
         "late": [{"until": "2026-12-03T18:00:00Z", "share": 0.5}], "most_attempts": 3})), responses(
-    (status = 204, description = "It is so from now on"),
+    (status = 204, description = "It is so from now on",
+        headers(("etag" = String, description = "The version of it, in quotes"))),
     (status = 404, description = "No such lesson", body = ref(PROBLEM)),
+    (status = 409, description = "Another policy than the named one is set", body = ref(PROBLEM)),
     (status = 422, description = "Dates or shares that contradict each other", body = ref(PROBLEM))))]
 async fn set(
     State(app): State<App>,
     PathParameters(slug): PathParameters<String>,
+    QueryParameters(before): QueryParameters<InPlaceOf>,
     caller: Caller,
     Json(policy): Json<Policy>,
-) -> Result<StatusCode, Problem> {
+) -> Result<impl IntoResponse, Problem> {
     let slug = lessons::find(&app, &slug)?.slug.clone();
     policy.check()?;
-    app.store.set_policy(CLASS, &caller.member()?.id, &slug, &policy).await?;
-    Ok(StatusCode::NO_CONTENT)
+    let (actor, before) = (&caller.member()?.id, before.version.as_deref());
+    let version = app.store.set_policy(CLASS, actor, &slug, &policy, before).await?;
+    Ok((StatusCode::NO_CONTENT, [(header::ETAG, format!("\"{version}\""))]))
 }
 
 /// Whether the results are released.
@@ -214,6 +234,9 @@ impl NewExtension {
             let problem = Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "invalid-extension", wrong, hint);
             Err(problem.at("/until", wrong))
         };
+        if let Some(wrong) = wrong_date("until", more.0) {
+            return refused(&wrong, "give a date within these years");
+        }
         if more == (None, None) && takes == [false; 2] {
             return refused(
                 "it allows neither more time nor more attempts",

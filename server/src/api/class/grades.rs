@@ -98,9 +98,11 @@ async fn decide(
         let wrong = format!("points go from 0 to {possible} here");
         return Err(refused("/points", wrong, "give points within that range"));
     }
+    // A zero has no sign.
+    let points = new.points.map(|points| points + 0.0);
     let said = match new.question.as_deref() {
-        None => Said::points(new.points, &reason),
-        question => Said { kind: DecisionKind::Mark, question, points: new.points, text: &reason },
+        None => Said::points(points, &reason),
+        question => Said { kind: DecisionKind::Mark, question, points, text: &reason },
     };
     app.store.decide(CLASS, &caller.member()?.id, &person, &lesson.slug, said).await?;
     Ok(StatusCode::CREATED)

@@ -128,7 +128,7 @@ struct Application {
     request_body(content = ref(of::<Application>()), example = json!({"choice": "better", "reason": "the reference had the wrong sign"})), responses(
     (status = 204, description = "It counts"),
     (status = 404, description = "No such preview, or it is too old", body = ref(PROBLEM)),
-    (status = 409, description = "Something was handed in since", body = ref(PROBLEM)),
+    (status = 409, description = "Something was handed in, decided, set or allowed since", body = ref(PROBLEM)),
     (status = 422, description = "No reason", body = ref(PROBLEM))))]
 async fn apply(
     State(app): State<App>,

@@ -30,8 +30,9 @@ use crate::api::extract::{Json, PathParameters, QueryParameters};
 use crate::api::guard::Caller;
 use crate::app::App;
 use crate::blocking;
+use crate::grades::assigned;
 use crate::problem::{Problem, suggest};
-use crate::store::Role;
+use crate::store::{CLASS, Role};
 
 pub(in crate::api) fn routes(schemas: &mut Schemas) -> OpenApiRouter<App> {
     schemas.answer::<LessonList>();
@@ -123,7 +124,16 @@ pub(in crate::api) fn variant(
     asked: Option<&str>,
     caller: &Caller,
 ) -> Result<Arc<Lesson>, Problem> {
-    let lesson = find(app, name)?;
+    numbered(app, find(app, name)?, asked, caller)
+}
+
+/// The same of a lesson that was found.
+fn numbered(
+    app: &App,
+    lesson: &Lesson,
+    asked: Option<&str>,
+    caller: &Caller,
+) -> Result<Arc<Lesson>, Problem> {
     if !app.access.is_class() {
         return app.variants.of(lesson, asked.unwrap_or_default());
     }
@@ -158,8 +168,13 @@ async fn show(
     caller: Caller,
     QueryParameters(whose): QueryParameters<Whose>,
 ) -> Result<Answer<LessonView>, Problem> {
+    let mut lesson = find(&app, &slug)?.clone();
+    if app.access.is_class() {
+        // It promises no right answers that a policy never tells.
+        lesson = assigned(&lesson, &app.store.assignment(CLASS, &lesson.slug).await?.policy);
+    }
     blocking(move || {
-        let mut view = variant(&app, &slug, whose.seed(), &caller)?.public_view();
+        let mut view = numbered(&app, &lesson, whose.seed(), &caller)?.public_view();
         told_seed(&app, &caller, &mut view.seed);
         Ok(Answer(view))
     })

@@ -8,7 +8,7 @@ use tokio::runtime::Builder;
 use triad_lessons::Course;
 
 use crate::cli::terminal::{Outcome, counted, print_json, print_line, tell};
-use crate::grades::{Format, GradeTable, csv, fill, lines, table};
+use crate::grades::{Format, GradeTable, OtherPoints, csv, fill, lines, table};
 use crate::policy::Moment;
 use crate::problem::Problem;
 use crate::store::{CLASS, HOME, Location, Store};
@@ -77,6 +77,9 @@ fn filled(file: &Path, grades: &GradeTable, json: bool) -> Result<(), Problem> {
         if !names.is_empty() {
             tell(&format!("triad: {what}: {}", names.join("; ")));
         }
+    }
+    for OtherPoints { column, there, here } in &filled.other_points {
+        tell(&format!("triad: {column} has {there} points in Canvas, and {here} here"));
     }
     Ok(())
 }

@@ -4,7 +4,9 @@ use sqlx::AnyConnection;
 
 use crate::policy::{Extension, Moment, Policy};
 use crate::store::error::StoreError;
+use crate::store::hash::sha256;
 use crate::store::log::{self, Event};
+use crate::store::rulings::{self, EXTENDED, HELD_BACK, RELEASED, SET_POLICY, TOOK_BACK};
 use crate::store::{Store, identifier, now, sql};
 
 use super::members::known;
@@ -26,6 +28,12 @@ impl Assignment {
     /// A lesson for which nothing was set.
     pub fn of(lesson: &str) -> Self {
         Self { id: String::new(), lesson: lesson.to_owned(), policy: Policy::default(), released: None }
+    }
+
+    /// The name of what is set: another policy has another.
+    pub fn version(&self) -> String {
+        // As JSON it has no maps whose order could differ, and nothing in it fails to be written.
+        sha256(&serde_json::to_string(&self.policy).unwrap_or_default())
     }
 }
 
@@ -51,28 +59,31 @@ impl Store {
     ///
     /// Errors if the file cannot be read.
     pub async fn assignment(&self, course: &str, lesson: &str) -> Result<Assignment, StoreError> {
-        let find = sqlx::query_as(sql::ASSIGNMENT).bind(course).bind(lesson);
-        let found: Option<Row> = find.fetch_optional(&self.pools.readers).await?;
-        found.map_or_else(|| Ok(Assignment::of(lesson)), assignment)
+        found(&mut *self.pools.readers.acquire().await?, course, lesson).await
     }
 
-    /// Sets the policy of a lesson.
+    /// Sets the policy of a lesson, in the place of the one that is named, or of whichever there is; the version of the new one.
     ///
-    /// Errors if it cannot be written.
+    /// Errors if there is another than `before`, or it cannot be written.
     pub async fn set_policy(
         &self,
         course: &str,
         actor: &str,
         lesson: &str,
         policy: &Policy,
-    ) -> Result<(), StoreError> {
+        before: Option<&str>,
+    ) -> Result<String, StoreError> {
         let text = serde_json::to_string(policy).map_err(|cause| StoreError::Sql(cause.to_string()))?;
         let mut transaction = self.write().await?;
-        let event = Event { actor, what: "set the policy of", subject: lesson, detail: &text };
+        let event = Event { actor, what: SET_POLICY, subject: lesson, detail: &text };
         log::append(&mut transaction, course, now(), &event).await?;
-        let id = ensured(&mut transaction, course, lesson).await?.id;
-        sqlx::query(sql::SET_POLICY).bind(id).bind(&text).execute(&mut *transaction).await?;
-        transaction.commit().await
+        let found = ensured(&mut transaction, course, lesson).await?;
+        if before.is_some_and(|before| before != found.version()) {
+            return Err(StoreError::PolicyChanged);
+        }
+        sqlx::query(sql::SET_POLICY).bind(&found.id).bind(&text).execute(&mut *transaction).await?;
+        transaction.commit().await?;
+        Ok(Assignment { policy: policy.clone(), ..found }.version())
     }
 
     /// Releases the results of a lesson, or takes that back.
@@ -87,7 +98,7 @@ impl Store {
     ) -> Result<(), StoreError> {
         let at = now();
         let mut transaction = self.write().await?;
-        let what = if released { "released" } else { "held back" };
+        let what = if released { RELEASED } else { HELD_BACK };
         log::append(&mut transaction, course, at, &Event { actor, what, subject: lesson, detail: "" })
             .await?;
         let id = ensured(&mut transaction, course, lesson).await?.id;
@@ -105,13 +116,7 @@ impl Store {
         person: Option<&str>,
         lesson: Option<&str>,
     ) -> Result<Vec<(String, String, Extension)>, StoreError> {
-        type Row = (String, String, Option<i64>, i64, String, String, i64);
-        let list = sqlx::query_as(sql::EXTENSIONS).bind(course).bind(person).bind(lesson);
-        let rows: Vec<Row> = list.fetch_all(&self.pools.readers).await?;
-        let read = |(person, lesson, until, attempts, reason, by, at): Row| {
-            (person, lesson, extension((until, attempts, reason, by, at)))
-        };
-        Ok(rows.into_iter().map(read).collect())
+        extensions(&mut *self.pools.readers.acquire().await?, course, person, lesson).await
     }
 
     /// Allows somebody more time or attempts at a lesson, as follows from the policy and what was allowed before; `None` takes it
@@ -133,9 +138,9 @@ impl Store {
         let Assignment { id, policy, .. } = ensured(&mut transaction, course, lesson).await?;
         let given = change(&policy, extension_of(&mut transaction, &id, person).await?)?;
         let given = given.as_ref();
-        let detail = given.map(|g| (lesson, g.until, g.attempts, &g.reason));
-        let detail = serde_json::json!([lesson, detail]).to_string();
-        let what = if given.is_some() { "extended" } else { "took back the extension of" };
+        let detail = given.map(|given| (given.until, i64::from(given.attempts), given.reason.as_str()));
+        let detail = rulings::extension(lesson, detail).to_string();
+        let what = if given.is_some() { EXTENDED } else { TOOK_BACK };
         log::append(&mut transaction, course, at, &Event { actor, what, subject: person, detail: &detail })
             .await?;
         let remove = sqlx::query(sql::REMOVE_EXTENSION).bind(&id).bind(person);
@@ -152,6 +157,33 @@ impl Store {
 fn extension((until, attempts, reason, by, at): (Option<i64>, i64, String, String, i64)) -> Extension {
     let attempts = u32::try_from(attempts).unwrap_or_default();
     Extension { until: until.map(Moment), attempts, reason, by, at: Moment(at) }
+}
+
+/// How a lesson is assigned; as every lesson is where nothing was set.
+pub(super) async fn found(
+    connection: &mut AnyConnection,
+    course: &str,
+    lesson: &str,
+) -> Result<Assignment, StoreError> {
+    let find = sqlx::query_as(sql::ASSIGNMENT).bind(course).bind(lesson);
+    let found: Option<Row> = find.fetch_optional(connection).await?;
+    found.map_or_else(|| Ok(Assignment::of(lesson)), assignment)
+}
+
+/// The extensions of a course, or of one person or lesson, with person and lesson.
+pub(super) async fn extensions(
+    connection: &mut AnyConnection,
+    course: &str,
+    person: Option<&str>,
+    lesson: Option<&str>,
+) -> Result<Vec<(String, String, Extension)>, StoreError> {
+    type Row = (String, String, Option<i64>, i64, String, String, i64);
+    let list = sqlx::query_as(sql::EXTENSIONS).bind(course).bind(person).bind(lesson);
+    let rows: Vec<Row> = list.fetch_all(connection).await?;
+    let read = |(person, lesson, until, attempts, reason, by, at): Row| {
+        (person, lesson, extension((until, attempts, reason, by, at)))
+    };
+    Ok(rows.into_iter().map(read).collect())
 }
 
 /// What somebody is allowed beyond the others.

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use crate::policy::{Handed, Moment};
 use crate::store::error::StoreError;
 use crate::store::log::{self, Event};
+use crate::store::rulings;
 use crate::store::{Store, identifier, now, sql};
 
 use super::assignments::ensured;
@@ -19,6 +20,10 @@ pub struct HandedRow {
     pub lesson: String,
     /// When it came and what it earned, by the verdict in force.
     pub handed: Handed,
+    /// Points that could be earned by it.
+    pub possible: f64,
+    /// The lesson that gave it; empty where it was not kept.
+    pub lesson_sha256: String,
 }
 
 /// What kind of thing is said about somebody's work in a lesson.
@@ -109,15 +114,15 @@ impl Store {
         person: Option<&str>,
         lesson: Option<&str>,
     ) -> Result<Vec<HandedRow>, StoreError> {
-        type Row = (String, String, String, i64, i64, i64, f64);
+        type Row = (String, String, String, i64, i64, i64, f64, f64, String);
         let list = sqlx::query_as(person.map_or(sql::HANDED, |_| sql::HANDED_OF))
             .bind(course)
             .bind(person)
             .bind(lesson);
         let rows: Vec<Row> = list.fetch_all(&self.pools.readers).await?;
-        let read = |(person, lesson, id, n, at, judged, earned)| {
-            let handed = Handed { id, n, at: Moment(at), judged: judged == 1, earned };
-            HandedRow { person, lesson, handed }
+        let read = |(person, lesson, id, n, at, judged, earned, possible, lesson_sha256): Row| {
+            let handed = Handed { id, n, at: Moment(at), judged: judged == 1, earned, pass: None };
+            HandedRow { person, lesson, handed, possible, lesson_sha256 }
         };
         Ok(rows.into_iter().map(read).collect())
     }
@@ -170,12 +175,8 @@ impl Store {
         let Said { kind, question, points, text } = said;
         let at = now();
         let mut transaction = self.write().await?;
-        let detail = match question {
-            None => serde_json::json!([lesson, kind.name(), points, text]),
-            Some(question) => serde_json::json!([lesson, kind.name(), points, text, question]),
-        };
-        let detail = detail.to_string();
-        let event = Event { actor, what: "decided about", subject: person, detail: &detail };
+        let detail = rulings::decision(lesson, kind.name(), points, text, question).to_string();
+        let event = Event { actor, what: rulings::DECIDED, subject: person, detail: &detail };
         let n = log::append(&mut transaction, course, at, &event).await?;
         known(&mut transaction, course, person).await?;
         let assignment = ensured(&mut transaction, course, lesson).await?.id;

@@ -7,4 +7,4 @@ mod regrades;
 
 pub use assignments::Assignment;
 pub use decisions::{Decision, DecisionKind, HandedRow, Said};
-pub use regrades::{NewRegrade, NewVerdict, RegradeRow, Regraded, VerdictHistory};
+pub use regrades::{NewRegrade, NewVerdict, RegradeRow, Regraded, Ruled, VerdictHistory};

@@ -1,16 +1,18 @@
 //! Regrades: new verdicts on what was handed in, all at once, and all taken back at once.
 
+use std::collections::BTreeMap;
+
 use serde_json::Value;
 use sqlx::AnyConnection;
 
-use crate::policy::Moment;
+use crate::policy::{Extension, Moment, Policy};
 use crate::store::error::StoreError;
 use crate::store::hash::sha256;
 use crate::store::log::{self, Event};
 use crate::store::records::{self, SubmissionRow, VerdictRow};
 use crate::store::{Store, identifier, now, sql};
 
-use super::assignments::ensured;
+use super::assignments::{ensured, extensions, found};
 
 /// A regrade that is to be applied.
 #[derive(Debug, Clone)]
@@ -30,10 +32,37 @@ pub struct NewRegrade {
     /// How many verdicts the course's assignment had when it was computed, on whoever is not erased: if there are others, it is out
     /// of date.
     pub verdicts: usize,
+    /// What was set, allowed and decided when it was computed: if it is something else, it is out of date too.
+    pub ruled: Ruled,
     /// The new verdicts, in the order in which the submissions came.
     pub new: Vec<NewVerdict>,
     /// Points of each person before and after.
     pub people: Vec<(String, f64, f64)>,
+}
+
+/// What points follow from in a lesson besides verdicts, as far as people who teach say it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ruled {
+    /// The place in the log of the last decision about points, those of explanations included; 0 where there is none.
+    decided: i64,
+    /// What is set.
+    policy: Policy,
+    /// What is allowed beyond that, by person.
+    extensions: BTreeMap<String, Extension>,
+}
+
+impl Ruled {
+    /// What is said of it now that was not `before`.
+    fn since(&self, before: &Self) -> Option<&'static str> {
+        if self.decided != before.decided {
+            return Some("points were decided since this preview was made");
+        }
+        if self.policy != before.policy {
+            return Some("the policy was set anew since this preview was made");
+        }
+        (self.extensions != before.extensions)
+            .then_some("an extension was given or taken back since this preview was made")
+    }
 }
 
 /// A new verdict on a submission.
@@ -97,7 +126,8 @@ pub struct VerdictHistory {
 impl Store {
     /// Applies a regrade in one transaction; its id.
     ///
-    /// Errors if something was handed in or regraded since it was computed, or it cannot be written: then nothing is changed.
+    /// Errors if something was handed in, regraded, decided, set or allowed since it was computed, or it cannot be written: then
+    /// nothing is changed.
     pub async fn regrade(&self, new: &NewRegrade) -> Result<String, StoreError> {
         let (id, at) = (identifier(), now());
         let mut transaction = self.write().await?;
@@ -109,7 +139,12 @@ impl Store {
         let count = count.fetch_one(&mut *transaction);
         let (verdicts,): (i64,) = count.await?;
         if usize::try_from(verdicts) != Ok(new.verdicts) {
-            return Err(StoreError::OutOfDate);
+            return Err(StoreError::OutOfDate(
+                "something was handed in or regraded since this preview was made",
+            ));
+        }
+        if let Some(what) = ruled(&mut transaction, &new.course, &new.lesson).await?.since(&new.ruled) {
+            return Err(StoreError::OutOfDate(what));
         }
         for bundle in &new.bundles {
             let add = sqlx::query(sql::ADD_LESSON).bind(sha256(bundle)).bind(&new.lesson).bind(bundle);
@@ -141,6 +176,13 @@ impl Store {
         }
         transaction.commit().await?;
         Ok(id)
+    }
+
+    /// What people who teach have set, allowed and decided in a lesson.
+    ///
+    /// Errors if the file cannot be read.
+    pub async fn ruled(&self, course: &str, lesson: &str) -> Result<Ruled, StoreError> {
+        ruled(&mut *self.snapshot().await?, course, lesson).await
     }
 
     /// Takes a regrade back: the verdicts of before hold again, and what was said meanwhile is kept.
@@ -220,6 +262,15 @@ impl Store {
         };
         rows.into_iter().map(read).collect()
     }
+}
+
+async fn ruled(connection: &mut AnyConnection, course: &str, lesson: &str) -> Result<Ruled, StoreError> {
+    let last = sqlx::query_as(sql::LAST_DECISION).bind(course).bind(lesson);
+    let (decided,): (i64,) = last.fetch_one(&mut *connection).await?;
+    let policy = found(connection, course, lesson).await?.policy;
+    let extensions = extensions(connection, course, None, Some(lesson)).await?;
+    let extensions = extensions.into_iter().map(|(person, _, given)| (person, given)).collect();
+    Ok(Ruled { decided, policy, extensions })
 }
 
 async fn latest(connection: &mut AnyConnection, submission: &str) -> Result<VerdictRow, StoreError> {

@@ -10,6 +10,7 @@ use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 use sqlx::{AnyConnection, AssertSqlSafe};
 
+use super::super::audit;
 use super::super::error::StoreError;
 use super::super::hash::hexadecimal;
 use super::super::kind::Kind;
@@ -64,7 +65,7 @@ impl Store {
             add(&mut transaction, &table, &row).await?;
             rows += 1;
         }
-        if let Some(fault) = log::faults(&mut transaction, &head.course).await?.into_iter().next() {
+        if let Some(fault) = audit::faults(&mut transaction, &head.course).await?.into_iter().next() {
             return Err(StoreError::Damaged(fault));
         }
         let event = Event { actor: "triad", what: "imported", subject: &head.course, detail: "" };

@@ -6,7 +6,8 @@
 macro_rules! handed {
     ($of:literal) => {
         concat!(
-            "SELECT s.person, a.slug, s.id, s.n, s.received_at, COALESCE(v.counted, s.counted), v.earned \
+            "SELECT s.person, a.slug, s.id, s.n, s.received_at, COALESCE(v.counted, s.counted), v.earned, \
+             v.possible, v.lesson_sha256 \
              FROM submission s JOIN assignment a ON a.id = s.assignment JOIN verdict v ON v.submission = s.id \
              WHERE a.course = $1 AND v.run = (SELECT MAX(run) FROM verdict w WHERE w.submission = s.id) AND ",
             $of,

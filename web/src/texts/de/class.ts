@@ -76,6 +76,8 @@ export const classroom = {
   "{n} asks for a look again | {n} ask for a look again":
     "{n} bittet um einen neuen Blick | {n} bitten um einen neuen Blick",
   "The same in both: {questions}.": "In beiden gleich: {questions}.",
+  "Look at it in another tab": "In einem anderen Tab ansehen",
+  "Set mine in its place": "Meine an ihrer Stelle festlegen",
   "It counts from now on.": "Es gilt ab jetzt.",
   "To look at": "Zum Ansehen",
   "The class at a glance": "Der Kurs auf einen Blick",
@@ -154,6 +156,8 @@ export const classroom = {
   "Lessons without a column in the file": "Lektionen ohne Spalte in der Datei",
   "In the file, and not in this class": "In der Datei, und nicht in diesem Kurs",
   "In this class, and not in the file": "In diesem Kurs, und nicht in der Datei",
+  "Other points in Canvas than here": "Andere Punkte in Canvas als hier",
+  "{column}: {there} there, {here} here": "{column}: dort {there}, hier {here}",
   "{title}, {possible} points": "{title}, {possible} Punkte",
   "Students by lessons": "Studierende nach Lektionen",
   "Points that count (* decided, ? asks for a look again); below them the attempts. The numbers above lead to each lesson’s dates and regrades.":

@@ -278,4 +278,50 @@ export const toldOfRuns: Record<string, string> = {
   "the room {name} belongs to somebody else": "der Raum {name} gehört jemand anderem",
   "choose another name, such as one with your own or with the term; a name is opened again only by who opened it first":
     "Wähl einen anderen Namen, etwa mit deinem eigenen oder mit dem Semester; einen Namen öffnet nur wieder, wer ihn zuerst geöffnet hat.",
+
+  // A class: policies, extensions, regrades, tables for Canvas.
+  "Policy changed": "Die Regelung wurde inzwischen geändert",
+  "the policy of this lesson was set anew since you read it":
+    "die Regelung dieser Lektion wurde neu festgelegt, seit du sie gelesen hast",
+  "nothing was changed: look at what is set now, then set yours in its place if it is still right":
+    "Nichts wurde geändert: Sieh dir an, was jetzt festgelegt ist, und leg dann deine an seiner Stelle fest, wenn sie noch stimmt.",
+  "Invalid policy": "Die Regelung passt nicht",
+  "this cannot be set: {reason}": "das lässt sich nicht festlegen: {reason}",
+  "{name} lies outside of the years 1970 to 2999": "{name} liegt außerhalb der Jahre 1970 bis 2999",
+  "cooldown_minutes is more than {n}, a year": "cooldown_minutes ist mehr als {n}, ein Jahr",
+  "it lies before what should come first": "es liegt vor dem, was zuerst kommen soll",
+  "nothing is late without a due date": "ohne Termin ist nichts zu spät",
+  "there are more than 50 steps": "es sind mehr als 50 Stufen",
+  "shares go from 0 to 1": "Anteile gehen von 0 bis 1",
+  "a later one counts more than the one before it": "ein späterer zählt mehr als der davor",
+  "nobody could hand in": "niemand könnte abgeben",
+  "there is no due date after which to tell it": "es gibt keinen Termin, nach dem es mitgeteilt würde",
+  "dates lie in the years 1970 to 2999, in the order opens, due, late, closes; shares go from 0 to 1 and never rise":
+    "Zeitpunkte liegen in den Jahren 1970 bis 2999, in der Folge opens, due, late, closes; Anteile gehen von 0 bis 1 und steigen nie.",
+  "Invalid extension": "Die Verlängerung passt nicht",
+  "it allows neither more time nor more attempts": "sie erlaubt weder mehr Zeit noch mehr Versuche",
+  "give a date, or attempts, or both": "Gib einen Zeitpunkt an, oder Versuche, oder beides.",
+  "it allows nothing that is not allowed to everybody": "sie erlaubt nichts, was nicht allen erlaubt ist",
+  "give a date after the due date, or attempts where they are bounded":
+    "Gib einen Zeitpunkt nach dem Termin an, oder Versuche, wo sie begrenzt sind.",
+  "give a date within these years": "Gib einen Zeitpunkt in diesen Jahren an.",
+  "Invalid decision": "Die Entscheidung passt nicht",
+  "it is empty or has more than {n} characters": "der Text ist leer oder hat mehr als {n} Zeichen",
+  "say in a sentence why": "Sag in einem Satz, warum.",
+  "Out of date": "Die Vorschau ist veraltet",
+  "something was handed in or regraded since this preview was made":
+    "seit dieser Vorschau wurde etwas abgegeben oder neu bewertet",
+  "points were decided since this preview was made": "seit dieser Vorschau wurde über Punkte entschieden",
+  "the policy was set anew since this preview was made":
+    "seit dieser Vorschau wurde die Regelung neu festgelegt",
+  "an extension was given or taken back since this preview was made":
+    "seit dieser Vorschau wurde eine Verlängerung gegeben oder zurückgenommen",
+  "nothing was changed: make the preview anew, then apply it":
+    "Nichts wurde geändert: Mach die Vorschau neu, und wende sie dann an.",
+  "No canvas export": "Das kommt nicht aus Canvas",
+  "this is no gradebook that Canvas exported: {reason}":
+    "das ist kein Notenbuch, das Canvas exportiert hat: {reason}",
+  "its first line does not begin with Student and ID": "seine erste Zeile beginnt nicht mit Student und ID",
+  "in Canvas choose Grades, Export, Export Entire Gradebook, and send that file as it is":
+    "Wähl in Canvas Grades, Export, Export Entire Gradebook, und sende die Datei, wie sie ist.",
 };
