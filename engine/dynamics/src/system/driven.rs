@@ -7,10 +7,13 @@ use nalgebra::Vector3;
 
 /// How far drivers are followed, rad or lengths of the mechanism.
 const AWAY: f64 = 0.03;
+/// How far beyond the end of the run they are followed, in lengths of the run, where they do not go that far within it: what rows depend on
+/// others is no matter of how long a run is.
+const BEYOND: [f64; 5] = [1.0, 1e3, 1e6, 1e9, 1e12];
 
 impl System {
-    /// The first moment after t at which a driver has moved something by `AWAY`, as far as a thousand moments of the run tell; where none
-    /// goes that far, that at which one has gone farthest. `None` if all stand still.
+    /// The first moment after t at which a driver has moved something by `AWAY`, as far as a thousand moments of the run tell, or of times
+    /// beyond it; where none goes that far, that at which one has gone farthest. `None` if all stand still.
     pub fn driven_away(&self, t: f64) -> Option<f64> {
         let changes = self.curves.iter().any(VectorCurve::changes);
         if !changes && !self.targets.iter().any(|target| target.curve.changes()) {
@@ -25,13 +28,19 @@ impl System {
             turned.chain(slid).filter(|moved| moved.is_finite()).fold(0.0, f64::max)
         };
         let (mut farthest, mut before) = ((0.0, t), t);
-        for k in 1..=TRIED {
-            let later = t + end * f64::from(k) / f64::from(TRIED);
+        let moments =
+            BEYOND.iter().flat_map(|far| (1..=TRIED).map(move |k| far * f64::from(k) / f64::from(TRIED)));
+        for part in moments {
+            let later = t + end * part;
+            if later <= before {
+                continue;
+            }
             let way = moved(later);
             if way >= AWAY {
                 return Some(first_where(before, later, |time| moved(time) >= AWAY));
             }
-            if way > farthest.0 {
+            // Beyond the run nothing is nearer to the motion than what it shows itself.
+            if way > farthest.0 && (part <= 1.0 || farthest.0 == 0.0) {
                 farthest = (way, later);
             }
             before = later;

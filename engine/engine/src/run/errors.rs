@@ -16,6 +16,8 @@ use triad_dynamics::system::body::RigidBody;
 const BESIDE_START: f64 = 1e-3;
 /// Part of what the errors of all bodies would make of the energy, did each change it the same way, below which they are not taken to cancel.
 const CANCELLED: f64 = 0.05;
+/// How far from it, in lengths of the mechanism, velocities have not yet found to that motion: what they have changed by is not known.
+const LEAVING_START: f64 = 3e-4;
 /// Part of the error of all positions, over the length of the mechanism, below which that of directors is not told, since what moves one
 /// body turns another; likewise of velocities.
 const TURNED: f64 = 0.1;
@@ -87,9 +89,36 @@ impl Simulation {
     /// # Ok::<(), EngineError>(())
     /// ```
     pub fn error_estimate(&self) -> Option<ErrorEstimate> {
-        let error = self.compare(self.better()?);
-        let position = error.position.max(PASSING * self.off_at_start());
-        Some(ErrorEstimate { position, ..error })
+        let mut error = self.compare(self.better()?);
+        error.position = error.position.max(PASSING * self.off_at_start());
+        if self.is_near_singular_start(LEAVING_START) {
+            self.doubt_what_changed(&mut error);
+        }
+        Some(error)
+    }
+
+    /// Raises errors of velocities to what these have changed by since the start, and of positions to as large a part of the way.
+    fn doubt_what_changed(&self, error: &mut ErrorEstimate) {
+        let (system, length) = (self.system(), self.system().length);
+        let (q, q_dot) = self.start.split_at(system.coordinates);
+        let (mut changed, mut fastest) = (0.0f64, 0.0f64);
+        for (body, now) in system.bodies.iter().zip(self.frame().bodies) {
+            let at = body.layout.position(q);
+            let before = BodyFrame::new(&at, &body.layout.velocity(&at, q_dot));
+            let faster = apart(now.velocity, before.velocity).sqrt();
+            let spun = apart(now.angular_velocity, before.angular_velocity).sqrt();
+            error.velocity = error.velocity.max(faster);
+            error.angular_velocity = error.angular_velocity.max(spun);
+            changed = changed.max(faster).max(length * spun);
+            let [speed, spin] = [now.velocity, now.angular_velocity].map(|rate| apart(rate, [0.0; 3]).sqrt());
+            fastest = fastest.max(speed).max(length * spin);
+        }
+        if changed > 0.0 {
+            let way = system.longest_way(q, &self.current.y()[..system.coordinates]);
+            let off = way * (changed / fastest).min(1.0);
+            error.position = error.position.max(off);
+            error.turn = error.turn.max(off / length);
+        }
     }
 
     /// Estimated errors of the reactions at the current state; `None` as for [`Simulation::error_estimate`]. They are computed
@@ -130,11 +159,16 @@ impl Simulation {
     /// Whether rows lose their hold at the start, which bodies have hardly left: accelerations and reactions are not those of the branch of
     /// the motion, which higher derivatives of the rows alone determine at the start, and rounding beside it.
     pub fn is_beside_singular_start(&self) -> bool {
+        self.is_near_singular_start(BESIDE_START)
+    }
+
+    /// Whether rows lose their hold at the start, and bodies have moved by no more than so many lengths of the mechanism since.
+    fn is_near_singular_start(&self, lengths: f64) -> bool {
         if self.rank().lost_at_start() == 0 {
             return false;
         }
         let positions = self.system().coordinates;
-        let most = BESIDE_START * self.system().length;
+        let most = lengths * self.system().length;
         self.system().longest_way(&self.start[..positions], &self.current.y()[..positions]) < most
     }
 

@@ -92,9 +92,41 @@ fn a_driven_start_has_no_freedom_and_tells_that_it_is_singular() {
     let found = check(&flat(PARALLEL, &steady())).unwrap();
     assert_eq!((found.degrees_of_freedom, found.redundant.len()), (0, 1), "{found:?}");
     assert!(found.notes.iter().any(|note| note.contains("singular position")), "{:?}", found.notes);
+    // However short the run is, in which drivers hardly lead it away.
+    let mut short = flat(PARALLEL, &steady());
+    short.simulation.duration = 1e-5;
+    let run = Simulation::new(&short).unwrap();
+    assert_eq!(run.rank().lost_at_start(), 1);
+    assert!(
+        run.reaction_errors().is_none() && run.notes().iter().any(|note| note.contains("singular position"))
+    );
     // A driver that holds it there lets it lose its hold for ever, and nothing is singular beside that.
     let held = check(&flat([0.0; 3], &json!({ "kind": "constant", "value": 0.0 }))).unwrap();
     assert_eq!(held.degrees_of_freedom, 1);
+}
+
+/// Accelerations there are those of no branch, and the first steps go by them.
+#[test]
+fn velocities_just_after_a_singular_start_are_told_with_what_they_change_by() {
+    for rate in [0.01, 1.0, 30.0] {
+        let motion = json!({ "kind": "expression", "value": format!("{rate}*t+{rate}*{rate}*t*t/2") });
+        let mut scene = flat(PARALLEL.map(|spin| rate * spin), &motion);
+        scene.simulation.integrator = IntegratorKind::Taylor;
+        let mut run = Simulation::new(&scene).unwrap();
+        for way in [1e-7, 1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 1e-3, 1e-2] {
+            run.advance_to(way / rate).unwrap();
+            let wanted = rate * (1.0 + way);
+            let frame = run.frame();
+            let spins = [0, 1, 2].map(|body| frame.bodies[body].angular_velocity[2]);
+            let off = spins.iter().zip([wanted, 0.0, wanted]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let told = run.error_estimate().unwrap();
+            assert!(
+                off <= 3.0 * told.angular_velocity + 1e-13 * rate,
+                "{rate} rad/s, {way} rad: off {off:e}, told {told:?}"
+            );
+            assert!(told.position <= way, "{rate} rad/s, {way} rad: {told:?}");
+        }
+    }
 }
 
 /// Drivers alone do not say which branch is meant, and velocities that obey the rows may belong to none.
