@@ -109,7 +109,9 @@ pub(super) fn quoted(rows: &[Vec<String>], separator: u8) -> Result<String, Prob
 
 /// Points as the page shows them, with two decimals at most: sums and shares have digits of rounding.
 pub(super) fn cell(points: f64) -> String {
-    let shown = format!("{points:.2}");
+    // Half a hundredth, which only odd eighths are, is rounded up, as the page rounds it, not to the even digit.
+    let is_half = (8.0 * points).fract() == 0.0 && (4.0 * points).fract() != 0.0;
+    let shown = format!("{:.2}", if is_half { points.next_up() } else { points });
     // Without zeros at the end, and without a sign before one.
     shown.parse::<f64>().map_or(shown, |points| (points + 0.0).to_string())
 }
@@ -172,9 +174,16 @@ mod tests {
 
     #[test]
     fn points_are_written_as_they_are_shown() {
-        for (points, shown) in
-            [(0.3 * 3.0, "0.9"), (-0.0, "0"), (-0.001, "0"), (7.5, "7.5"), (2.0 / 3.0, "0.67")]
-        {
+        for (points, shown) in [
+            (0.3 * 3.0, "0.9"),
+            (-0.0, "0"),
+            (-0.001, "0"),
+            (7.5, "7.5"),
+            (2.0 / 3.0, "0.67"),
+            (1.125, "1.13"),
+            (7.375, "7.38"),
+            (1.115, "1.11"),
+        ] {
             assert_eq!(cell(points), shown);
         }
         let mut table = small();

@@ -104,7 +104,7 @@ impl PreparedRegrade {
         let chosen = self
             .people
             .iter()
-            .filter(|(one, graded)| !better || one.after >= one.before && !graded.iter().any(Graded::lowers));
+            .filter(|(one, graded)| !better || one.keeps() && !graded.iter().any(Graded::lowers));
         let chosen: Vec<_> = chosen.filter(|(one, _)| !one.submissions.is_empty()).collect();
         let new = chosen.iter().flat_map(|(_, graded)| graded).filter_map(|one| {
             let body = one.body.as_ref()?.to_string();
@@ -221,6 +221,7 @@ fn person_change(
         name: names.get(&person).cloned().unwrap_or_default(),
         before: before.score.points,
         after: after.score.points,
+        passed: [before.score.passed, after.score.passed],
         attempts: [before.turn.attempts, after.turn.attempts],
         submissions: touched.cloned().collect(),
         person,

@@ -60,10 +60,19 @@ pub struct PersonChange {
     pub before: f64,
     /// Points that count, after: attempts and lateness counted anew.
     pub after: f64,
+    /// Whether the lesson is passed, before and after: with the mark of the lesson that graded, and with the new one.
+    pub passed: [bool; 2],
     /// Attempts before and after.
     pub attempts: [u32; 2],
     /// What changes for each submission; those that stay the same are left out.
     pub submissions: Vec<SubmissionChange>,
+}
+
+impl PersonChange {
+    /// Whether the person loses nothing by it: neither points nor having passed.
+    pub fn keeps(&self) -> bool {
+        self.after >= self.before && (self.passed[1] || !self.passed[0])
+    }
 }
 
 /// How a submission comes out.

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sqlx::AnyConnection;
 
 use super::error::StoreError;
+use super::hash::sha256;
 use super::log::{ERASED, Event, link};
 use super::records::{self, PredictionRow, SubmissionRow, VerdictRow};
 use super::rulings::Rulings;
@@ -64,6 +65,7 @@ pub(super) async fn faults(connection: &mut AnyConnection, course: &str) -> Resu
         found.push(format!("entries are missing at the end of the log: {} are known", end.0));
     }
     found.extend(logged.rulings.faults(connection, course).await?);
+    found.extend(wrong_lessons(connection).await?);
     let Logged { mut sealed, predicted, erased, .. } = logged;
     let submissions: Vec<SubmissionRow> =
         sqlx::query_as(sql::RECORDED).bind(course).fetch_all(&mut *connection).await?;
@@ -97,6 +99,14 @@ pub(super) async fn faults(connection: &mut AnyConnection, course: &str) -> Resu
         sealed.iter().map(|(id, _)| format!("submission {id}: it is logged, and is missing or changed")),
     );
     Ok(found)
+}
+
+/// Versions of lessons that are not those of their names: what is enough to pass follows from them.
+async fn wrong_lessons(connection: &mut AnyConnection) -> Result<Vec<String>, StoreError> {
+    let rows: Vec<(String, String, String)> =
+        sqlx::query_as(sql::LESSON_BUNDLES).fetch_all(connection).await?;
+    let other = rows.iter().filter(|(name, _, bundle)| sha256(bundle) != *name);
+    Ok(other.map(|(name, slug, _)| format!("the version {name} of {slug} is not what graded")).collect())
 }
 
 /// Predictions that are not those that were logged, by who made them, place and hash; of whom was erased nothing is asked.

@@ -55,8 +55,13 @@ async fn ruled() -> Store {
 
 /// Takes away what keeps decisions, until the transaction ends.
 async fn unguard(connection: &mut AnyConnection) {
-    for trigger in ["decision_is_immutable", "decision_is_kept"] {
-        let on = if Kind::of(connection) == Kind::Postgres { "ON decision" } else { "" };
+    let kept = [
+        ("decision_is_immutable", "decision"),
+        ("decision_is_kept", "decision"),
+        ("lesson_is_immutable", "lesson_version"),
+    ];
+    for (trigger, table) in kept {
+        let on = if Kind::of(connection) == Kind::Postgres { format!("ON {table}") } else { String::new() };
         let drop = sqlx::query(AssertSqlSafe(format!("DROP TRIGGER {trigger} {on}")));
         drop.execute(&mut *connection).await.expect(trigger);
     }
@@ -95,6 +100,7 @@ async fn what_was_set_allowed_or_decided_and_changed_in_the_tables_is_found() {
         ("UPDATE decision SET person = decided_by", decisions, 4),
         ("UPDATE decision SET n = 100 + n WHERE kind = 'mark'", decisions, 2),
         ("DELETE FROM decision WHERE kind = 'mark'", decisions, 1),
+        ("UPDATE lesson_version SET bundle = '{}'", "the version ", 1),
     ] {
         let mut transaction = store.write().await.expect("begins");
         unguard(&mut transaction).await;

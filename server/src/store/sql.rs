@@ -203,6 +203,7 @@ statements! {
     ADD_LESSON = "INSERT INTO lesson_version (sha256, slug, bundle, added_at) VALUES ($1, $2, $3, $4) \
         ON CONFLICT (sha256) DO NOTHING";
     LESSON = "SELECT bundle FROM lesson_version WHERE sha256 = $1";
+    LESSON_BUNDLES = "SELECT sha256, slug, bundle FROM lesson_version ORDER BY sha256";
     LESSON_VERSIONS = "SELECT bundle FROM lesson_version WHERE slug = $1 ORDER BY added_at, sha256";
     ADD_ASSIGNMENT = "INSERT INTO assignment (id, course, slug) VALUES ($1, $2, $3) ON CONFLICT (course, slug) DO NOTHING";
     ASSIGNMENT = "SELECT id, slug, policy, released_at FROM assignment WHERE course = $1 AND slug = $2";

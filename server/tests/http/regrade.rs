@@ -354,6 +354,11 @@ async fn an_edited_lesson_takes_no_pass_away_before_a_regrade() {
     assert_eq!(passed(&class).await, [true, true], "now 10.5 of 15 are");
     assert_eq!(class.see(&ada, "/api/v1/record").await["lessons"][0]["standing"]["points"]["passed"], true);
     let seen = class.look(&owner).await;
-    class.apply(&owner, &seen, "replace").await;
+    for one in seen["people"].as_array().expect("people") {
+        assert_eq!(one["passed"], json!([true, false]), "{one}");
+    }
+    class.apply(&owner, &seen, "better").await;
+    assert_eq!(passed(&class).await, [true, true], "more points that pass no more are a loss");
+    class.apply(&owner, &class.look(&owner).await, "replace").await;
     assert_eq!(passed(&class).await, [false, false]);
 }

@@ -2846,6 +2846,11 @@ export interface components {
             before: number;
             /** @description The name. */
             name: string;
+            /** @description Whether the lesson is passed, before and after: with the mark of the lesson that graded, and with the new one. */
+            passed: [
+                boolean,
+                boolean
+            ];
             /** @description The person's id. */
             person: string;
             /** @description What changes for each submission; those that stay the same are left out. */

@@ -192,7 +192,7 @@ function people(preview: RegradePreview): HTMLElement {
       null,
       h("th", { scope: "row" }, h("a", { href: `/class/${encodeURIComponent(person.person)}` }, person.name)),
       h("td", { class: "number" }, points(person.before)),
-      h("td", { class: "number" }, points(person.after)),
+      h("td", { class: "number" }, points(person.after), passing(person.passed)),
       h(
         "td",
         { class: "number" },
@@ -218,6 +218,12 @@ function people(preview: RegradePreview): HTMLElement {
     { class: "table-scroll", tabindex: "0", role: "region", "aria-label": t("What changes for whom") },
     h("table", { class: "data" }, h("thead", null, h("tr", null, ...head)), h("tbody", null, ...rows)),
   );
+}
+
+/** What becomes of having passed. */
+function passing([was, is]: readonly boolean[]): HTMLElement | null {
+  if (was === is) return null;
+  return h("div", { class: "help" }, is ? t("passes now") : t("passes no more"));
 }
 
 const mistake = (name: string): string => (name ? mistakeName(name) : t("none"));

@@ -330,6 +330,8 @@ export const classroom = {
   Before: "Vorher",
   After: "Nachher",
   Attempts: "Versuche",
+  "passes now": "besteht jetzt",
+  "passes no more": "besteht nicht mehr",
   Misconceptions: "Fehlvorstellungen",
   Verdicts: "Urteile",
   "What changes for whom": "Was sich für wen ändert",
