@@ -9,7 +9,7 @@ use crate::scene::{IntegratorKind, OutputKind};
 use nalgebra::Vector3;
 use serde::Serialize;
 use triad_dynamics::model::{BodyRef, ModelBody};
-use triad_dynamics::state::{BodyFrame, State};
+use triad_dynamics::state::{BodyFrame, State, fastest};
 use triad_dynamics::system::body::RigidBody;
 
 /// How far from a singular start, in lengths of the mechanism, reactions are those of the motion.
@@ -101,7 +101,7 @@ impl Simulation {
     fn doubt_what_changed(&self, error: &mut ErrorEstimate) {
         let (system, length) = (self.system(), self.system().length);
         let (q, q_dot) = self.start.split_at(system.coordinates);
-        let (mut changed, mut fastest) = (0.0f64, 0.0f64);
+        let mut changed = 0.0f64;
         for (body, now) in system.bodies.iter().zip(self.frame().bodies) {
             let at = body.layout.position(q);
             let before = BodyFrame::new(&at, &body.layout.velocity(&at, q_dot));
@@ -110,12 +110,10 @@ impl Simulation {
             error.velocity = error.velocity.max(faster);
             error.angular_velocity = error.angular_velocity.max(spun);
             changed = changed.max(faster).max(length * spun);
-            let [speed, spin] = [now.velocity, now.angular_velocity].map(|rate| apart(rate, [0.0; 3]).sqrt());
-            fastest = fastest.max(speed).max(length * spin);
         }
         if changed > 0.0 {
-            let way = system.longest_way(q, &self.current.y()[..system.coordinates]);
-            let off = way * (changed / fastest).min(1.0);
+            let off =
+                self.way_from_start() * (changed / (length * fastest(system, self.current.y()))).min(1.0);
             error.position = error.position.max(off);
             error.turn = error.turn.max(off / length);
         }
@@ -167,9 +165,13 @@ impl Simulation {
         if self.rank().lost_at_start() == 0 {
             return false;
         }
+        self.way_from_start() < lengths * self.system().length
+    }
+
+    /// The longest way of a body since the start, m.
+    fn way_from_start(&self) -> f64 {
         let positions = self.system().coordinates;
-        let most = lengths * self.system().length;
-        self.system().longest_way(&self.start[..positions], &self.current.y()[..positions]) < most
+        self.system().longest_way(&self.start[..positions], &self.current.y()[..positions])
     }
 
     /// The same of reactions as [`Simulation::reactions`] has told them in a convention: about other points, and along axes that turn, their
@@ -228,12 +230,7 @@ impl Simulation {
     fn relative_error(&self, better: &CachedState) -> f64 {
         let length = self.system().length;
         let error = self.compare(better);
-        let bodies = self.current.state(self.system()).bodies().iter().map(BodyFrame::from);
-        let fastest = bodies.fold(0.0f64, |fastest, body| {
-            let [speed, spin] =
-                [body.velocity, body.angular_velocity].map(|rate| apart(rate, [0.0; 3]).sqrt());
-            fastest.max(speed).max(length * spin)
-        });
+        let fastest = length * fastest(self.system(), self.current.y());
         let moved = error.position.max(length * error.turn) / length;
         let faster = error.velocity.max(length * error.angular_velocity);
         // At rest nothing is faster.

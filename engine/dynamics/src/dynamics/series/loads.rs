@@ -400,9 +400,13 @@ fn converging(size: impl Fn(usize) -> f64, terms: usize, h: f64, order: usize, t
     }
     let two = |last: usize| size(last) + size(last - 1);
     let (last, before) = (two(terms - 1), two(terms - 1 - FALLING));
+    // What is not prescribed, or a polynomial, takes no powers.
+    if last == 0.0 || before == 0.0 {
+        return h;
+    }
     let taken = order - 2;
     let added = two(taken) * libm::pow(h, taken as f64);
-    if last == 0.0 || before == 0.0 || added <= SETTLED * tolerance * (1.0 + size(0)) {
+    if added <= SETTLED * tolerance * (1.0 + size(0)) {
         return h;
     }
     h.min(NEAR_SINGULAR * libm::pow(before / last, 1.0 / FALLING as f64))
