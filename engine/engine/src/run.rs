@@ -272,7 +272,8 @@ impl Simulation {
         self.work += self.work_of_last_step(self.integrator.last().t);
         self.judge_events(self.integrator.last().t);
         if let Some(companion) = &mut self.companion {
-            companion.keep_up(&self.integrator);
+            let (work, _) = self.integrator.work(&self.mechanism);
+            companion.keep_up(&self.integrator, work.evaluations);
         }
         self.step_integrator(end)?;
         let Self { mechanism, integrator, lent_inertia, .. } = &mut *self;

@@ -19,6 +19,7 @@ mod wide;
 
 pub use lanes::PivotLanes;
 
+use crate::larger;
 use order::minimum_degree;
 use runs::Run;
 use std::collections::BTreeSet;
@@ -352,6 +353,15 @@ impl BlockCholesky {
             *share = (start..start + size).map(|row| part(row) / most).fold(*share, f64::max);
         }
         self.placed = x;
+    }
+
+    /// The largest |xᵢ| Sᵢᵢ / sizeᵢ of all rows that are not left out: what each xᵢ would make of its own row alone, with S as it was
+    /// factored last. x and the sizes stand where the factor has its rows.
+    pub fn largest_alone(&self, x: &[f64], sizes: &[f64]) -> f64 {
+        let alone = |(&place, diagonal): (&usize, &f64)| {
+            if diagonal.is_finite() { x[place].abs() * diagonal / sizes[place] } else { 0.0 }
+        };
+        self.places.iter().zip(&self.diagonal).map(alone).fold(0.0, larger)
     }
 
     /// Takes rows that are left out of other factorizations out of the pivot products of one that has them.

@@ -168,7 +168,7 @@ impl Geometry {
             return None;
         }
         let Self { system, elimination, dependent, .. } = self;
-        let (mut random, length, sizes) = (Random::new(SEED), system.length, violation::row_sizes(system));
+        let (mut random, length, sizes) = (Random::new(SEED), system.length, system.row_sizes());
         let unit = |k: usize| if k % 6 < 3 { length } else { 1.0 };
         let mut motion: Vec<f64> =
             (0..6 * system.bodies.len()).map(|k| unit(k) * random.between(-1.0, 1.0)).collect();

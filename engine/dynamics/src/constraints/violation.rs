@@ -6,7 +6,6 @@
 use crate::constraints::ConstraintError;
 use crate::scene::{ConstraintMethod, Settings};
 use crate::state::State;
-use crate::system::feature::Difference;
 use crate::system::index::ConstraintId;
 use crate::system::row::Form;
 use crate::system::{Row, System};
@@ -87,7 +86,7 @@ pub fn relative(system: &System, at: &State) -> f64 {
 }
 
 fn relative_row_violation(system: &System, at: &State, form: &Form) -> f64 {
-    at.row_violation(form) / row_size(system, form)
+    at.row_violation(form) / system.row_size(form)
 }
 
 /// Whether a position satisfies the constraints as far as a start has to; false where it is no number.
@@ -104,13 +103,13 @@ pub fn measure(system: &System, at: &State) -> ConstraintViolation {
 
 /// Largest |Φ̇| of each joint and driver at the velocities of a state, relative to the size of its rows, 1/s.
 pub fn rates(system: &System, at: &State) -> Vec<f64> {
-    by_constraint(system, |form| at.row_rate_violation(form) / row_size(system, form))
+    by_constraint(system, |form| at.row_rate_violation(form) / system.row_size(form))
 }
 
 /// The largest of them; allocates nothing.
 pub fn largest_rate(system: &System, at: &State) -> f64 {
     let rows = system.rows.iter();
-    rows.map(|row| at.row_rate_violation(&row.form) / row_size(system, &row.form)).fold(0.0, larger_or_nan)
+    rows.map(|row| at.row_rate_violation(&row.form) / system.row_size(&row.form)).fold(0.0, larger_or_nan)
 }
 
 /// The largest number of the rows of each constraint.
@@ -132,29 +131,6 @@ pub fn worst(numbers: &[f64]) -> Vec<(ConstraintId, f64)> {
 /// Largest violation of a rigid-body row.
 fn rigid_violation(at: &State) -> f64 {
     at.bodies().iter().fold(0.0, |largest, body| larger_or_nan(largest, body.q.stretch()))
-}
-
-/// What a row's Φ is measured in: m for each point in it.
-fn row_size(system: &System, form: &Form) -> f64 {
-    let points = |d: Difference| {
-        if system[d.plus].point { system.length } else { 1.0 }
-    };
-    match *form {
-        Form::Coincidence { .. } => system.length,
-        Form::Product { a, b, .. } => points(a) * points(b),
-        Form::Relation { slide: Some((_, _, factor)), .. } => (system.length * factor.abs()).max(1.0),
-        Form::CommonVector { .. } | Form::Relation { .. } => 1.0,
-    }
-}
-
-/// What Φ of each solver row is measured in.
-pub fn row_sizes(system: &System) -> Vec<f64> {
-    let mut sizes = vec![1.0; system.solver_rows];
-    for row in &system.rows {
-        // Rows of one form stand in a row; those after them overwrite the rest.
-        sizes[row.solver..].fill(row_size(system, &row.form));
-    }
-    sizes
 }
 
 /// What was observed of a run that may make its result doubtful.

@@ -133,7 +133,7 @@ struct Series<const L: usize, B: Bodies<L> = Bundle<L>> {
     instants: Option<Box<instants::Instants<L, B>>>,
     /// The error that is carried along.
     transport: Option<Box<transport::Transport<L, B>>>,
-    /// What Φ of each solver row is measured in, where it is measured, in the same order.
+    /// What Φ of each solver row is measured in, where the factor has its rows.
     row_sizes: Vec<f64>,
 }
 
@@ -215,6 +215,7 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             rows,
             lambda: vec![0.0; (schur.factor.numbers() + NOWHERE) * stride],
             correction: vec![0.0; schur.factor.numbers() + NOWHERE],
+            row_sizes: place_sizes(system, &schur),
             schur,
             rows_left_out: false,
             redundant: false,
@@ -229,7 +230,6 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
             probe: None,
             instants: None,
             transport: None,
-            row_sizes: Vec::new(),
         }
     }
 
@@ -340,6 +340,15 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         // Zero times infinity or NaN is NaN.
         numbers.fold(0.0, |sum, x| sum + 0.0 * x) == 0.0
     }
+}
+
+/// What Φ of each solver row is measured in, where the factor has its rows.
+fn place_sizes(system: &System, schur: &Schur) -> Vec<f64> {
+    let mut sizes = vec![1.0; schur.factor.numbers()];
+    for (size, &place) in system.row_sizes().iter().zip(schur.factor.places()) {
+        sizes[place] = *size;
+    }
+    sizes
 }
 
 /// Values of the ground's features, which stand behind those of bodies.

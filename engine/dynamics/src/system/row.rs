@@ -103,6 +103,29 @@ impl Form {
 }
 
 impl System {
+    /// What Φ of a form is measured in: m for each point in it.
+    pub fn row_size(&self, form: &Form) -> f64 {
+        let points = |d: Difference| {
+            if self[d.plus].point { self.length } else { 1.0 }
+        };
+        match *form {
+            Form::Coincidence { .. } => self.length,
+            Form::Product { a, b, .. } => points(a) * points(b),
+            Form::Relation { slide: Some((_, _, factor)), .. } => (self.length * factor.abs()).max(1.0),
+            Form::CommonVector { .. } | Form::Relation { .. } => 1.0,
+        }
+    }
+
+    /// What Φ of each solver row is measured in.
+    pub fn row_sizes(&self) -> Vec<f64> {
+        let mut sizes = Vec::with_capacity(self.solver_rows);
+        for (index, row) in self.rows.iter().enumerate() {
+            let end = self.rows.get(index + 1).map_or(self.solver_rows, |next| next.solver);
+            sizes.resize(end, self.row_size(&row.form));
+        }
+        sizes
+    }
+
     /// Keeps of each joint, by its name, the rows that are chosen, each of which counts as many rows of the solver, and numbers them anew.
     ///
     /// # Errors

@@ -23,6 +23,10 @@ const NEAREST: f64 = 0.1;
 /// Tolerance of the first one below which rounding leaves no room for a tighter one. There the second one is the looser, at [`TIGHTEST`],
 /// and what lies between them is rather its own error.
 const NO_TIGHTER: f64 = 5e-13;
+/// Evaluations of the second solution beyond which it gets nowhere: so many, and so many times those of the first one. A position that the
+/// first one has stepped over may let it take ever shorter steps, and nobody could stop it between them.
+const MOST_EVALUATIONS: u64 = 20_000;
+const TIMES_FIRST: u64 = 50;
 /// Part of the length of the mechanism beyond which the two are no longer compared: as for an error that a series carries.
 const LOST: f64 = 0.05;
 
@@ -55,6 +59,8 @@ pub(super) struct Companion {
     kind: IntegratorKind,
     /// Whether it goes beside the same method, in its steps where it can.
     alike: bool,
+    /// The most evaluations that it may take so far.
+    most: u64,
     /// When the two were compared last, s.
     compared: f64,
     /// The second solution at that time, less its own error if it carries that along.
@@ -96,6 +102,7 @@ impl Companion {
             integrator,
             kind,
             alike: stiff,
+            most: MOST_EVALUATIONS,
             compared: t,
             y: y.to_vec(),
             own,
@@ -114,9 +121,10 @@ impl Companion {
         self.lost
     }
 
-    /// Goes on to the end of the first one's last step, before it takes another.
-    pub fn keep_up(&mut self, first: &Integrator) {
+    /// Goes on to the end of the last step of the first one, which has taken so many evaluations, before it takes another.
+    pub fn keep_up(&mut self, first: &Integrator, evaluations: u64) {
         let last = first.last();
+        self.most = MOST_EVALUATIONS + TIMES_FIRST * evaluations;
         self.compare(last.t, &last.y, first);
         if let Some(ringing) = self.ringing.as_mut().filter(|_| self.lost.is_none() && last.h > 0.0) {
             ringing.look(&self.mechanism, last, &self.y);
@@ -130,7 +138,8 @@ impl Companion {
         }
         while self.integrator.last().t < t {
             let followed = self.alike && self.follow(first);
-            if !followed && !self.step(first) {
+            let (work, _) = self.integrator.work(&self.mechanism);
+            if work.evaluations > self.most || (!followed && !self.step(first)) {
                 self.lost = Some(Lost::Stopped(self.integrator.last().t));
                 return;
             }

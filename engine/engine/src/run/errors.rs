@@ -31,7 +31,8 @@ const CHANGED: f64 = 0.2;
 /// All these parts are smaller where a tighter solution tells the error: so many times its tolerance over that of the run.
 const UNKNOWN: f64 = 100.0;
 
-/// Roundings of what forces do over the length of the mechanism below which moments are nothing but that, and forces likewise.
+/// Roundings of what forces do over the length of the mechanism below which moments are nothing but that, and forces likewise; and of that
+/// length below which an error of positions may be nothing else.
 const NOTHING: f64 = 100.0 * f64::EPSILON;
 
 /// Estimated errors of the numbers of one state, each the largest over all bodies: what the run has collected since its start,
@@ -370,9 +371,15 @@ impl Simulation {
         }
         let worth = |k: usize| errors[k].sqrt().max(f64::EPSILON * numbers[k].sqrt());
         let rounding = if here.bodies().is_empty() { 0.0 } else { f64::EPSILON };
-        let [position, velocity, angular_velocity] = [0, 1, 2].map(worth);
+        let [mut position, mut velocity, angular_velocity] = [0, 1, 2].map(worth);
+        // A number that passes zero keeps the rounding of those that it was before.
+        let length = self.system().length;
+        if position < NOTHING * length {
+            position = position.max(f64::EPSILON * self.way_from_start());
+            velocity = velocity.max(f64::EPSILON * length * fastest(self.system(), &self.start));
+        }
         // What a director or a rate of turning is off may pass through zero: it is told to be a part of what is known beside it.
-        let part = self.unknown(TURNED) / self.system().length;
+        let part = self.unknown(TURNED) / length;
         let turn = turn.sqrt().max(part * position);
         let angular_velocity = angular_velocity.max(part * velocity);
         ErrorEstimate { position, turn: turn.max(rounding), velocity, angular_velocity, energy }

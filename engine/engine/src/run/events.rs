@@ -20,6 +20,8 @@ const PARTS: u32 = 12;
 const MAX_PARTS: u32 = 20_000;
 /// A quantity that is nearer to the value than this, relative to the value's size, counts as being on it.
 const AT_VALUE: f64 = 1e-10;
+/// Events that are nearer to each other than this part of the time happen at once.
+const AT_ONCE: f64 = 4.0 * f64::EPSILON;
 /// Greatest number of iterations for a root: bisection alone would need 60.
 const MAX_ITERATIONS: u32 = 80;
 
@@ -125,9 +127,12 @@ impl Simulation {
         if whole {
             find_at_end(&functions, last_numbers, step, occurrences);
         }
-        if let Some(last) = occurrences[before..].iter().position(|event| event.stop) {
-            occurrences.truncate(before + last + 1);
-            self.end = occurrences[before + last].time;
+        if let Some(end) = occurrences[before..].iter().find(|event| event.stop).map(|event| event.time) {
+            let found = &mut occurrences[before..];
+            let kept = found.partition_point(|event| event.time <= end + AT_ONCE * end.abs());
+            found[..kept].iter_mut().for_each(|event| event.time = event.time.min(end));
+            occurrences.truncate(before + kept);
+            self.end = end;
         }
     }
 }

@@ -244,3 +244,27 @@ fn an_event_is_known_no_better_than_its_quantity() {
         assert!(off > 1e-15 && off < 3.0 * told, "{formula}: {off:e}, told {told:e}");
     }
 }
+
+/// Two hands of one clock strike at the same moment: whichever stands first in the file, both are told, and the run ends.
+#[test]
+fn events_at_the_moment_at_which_a_run_stops_are_told() {
+    let scene = json!({
+        "name": "hands", "simulation": { "duration": 2 },
+        "bodies": [{ "name": "hand", "mass": 2.0, "inertia": { "principal": [0.3, 0.5, 0.7] } }],
+        "joints": [{ "name": "axle", "type": "revolute", "body_i": "ground", "body_j": "hand", "point": [0, 0, 0], "axis": [0, 0, 1] }],
+        "drivers": [{ "type": "angle", "name": "motor", "joint": "axle", "motion": { "kind": "polynomial", "coefficients": [0, 1] } }],
+    });
+    let strike = |name: &str, value: f64, stop: bool| json!({ "name": name, "of": { "type": "angle", "joint": "axle" }, "value": value, "stop": stop });
+    let (end, gate, later) =
+        (strike("end", 0.7, true), strike("gate", 0.7, false), strike("later", 0.701, false));
+    for events in [json!([end, gate, later]), json!([later, gate, end])] {
+        for integrator in ALL {
+            let mut run = with_events(scene.clone(), integrator, &events);
+            run.advance_to(2.0).unwrap();
+            let mut told: Vec<&str> = run.events().iter().map(|event| &event.name[..]).collect();
+            told.sort_unstable();
+            assert_eq!(told, ["end", "gate"], "{integrator}, {events}");
+            assert!((run.time() - 0.7).abs() < 1e-12, "{integrator}: {}", run.time());
+        }
+    }
+}

@@ -11,6 +11,7 @@ mod explicit;
 mod friction;
 mod given;
 mod integrators;
+mod light_links;
 mod parts;
 mod passing;
 mod pivots;

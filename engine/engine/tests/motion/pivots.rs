@@ -2,7 +2,6 @@
 
 use serde_json::json;
 use triad_engine::catalogue;
-use triad_engine::constraints::violation;
 use triad_engine::dynamics::series::{IslandSeries, StepPlan};
 use triad_engine::run::Simulation;
 use triad_engine::scene::Scene;
@@ -40,7 +39,7 @@ fn compare(scene: &Scene, in_plane: bool) -> Option<(f64, f64)> {
         IslandSeries::in_space(solved, ORDER, &[])
     };
     series.place(system, 0.0, &[run.q(), run.q_dot()].concat());
-    series.enable_probes(solved, &violation::row_sizes(solved));
+    series.enable_probes(solved);
     series.linearize();
     let plan =
         StepPlan { order: ORDER, tolerance: 1e-6, length: system.length, end: f64::INFINITY, dry_run: false };

@@ -4,6 +4,8 @@
 
 use triad_engine::integrate::{OdeMethod, RADAU_5, RADAU_9, RADAU_13, Radau, RadauTables};
 use triad_engine::ode::OdeSystem;
+use triad_engine::run::Simulation;
+use triad_engine::scene::Scene;
 
 /// ÿ = −ẏ⁰ sin y − 0.3 ẏ + cos t: a damped, driven pendulum.
 struct Pendulum;
@@ -95,4 +97,18 @@ fn a_stiff_motion_costs_few_steps() {
     assert!((integrator.last().y[0] - expected).abs() < 1e-7, "{:?}", integrator.last().y);
     // The estimate is of order three: steps of about 1e-8 to the power 1/4 each.
     assert!(integrator.last().steps.accepted < 600, "{:?}", integrator.last().steps);
+}
+
+/// A mechanism that passes next to its change point: the second solution, in steps of its own, comes to where it goes on by ever shorter ones.
+/// It is given up, and the run ends as if it had none: it took minutes.
+#[test]
+fn a_second_solution_that_gets_nowhere_is_given_up() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/nearly-parallelogram.json");
+    let scene = Scene::from_json(&std::fs::read_to_string(file).unwrap()).unwrap();
+    let mut run = Simulation::new(&scene).unwrap();
+    run.advance_to(0.9).unwrap();
+    assert!(run.summary().steps < 1000, "{:?}", run.summary().steps);
+    assert!(run.error_unknown_from().unwrap() > 0.3);
+    let told = run.summary().doubts.concat();
+    assert!(told.contains("the second solution that it is read off cannot go on"), "{told}");
 }

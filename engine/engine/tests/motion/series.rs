@@ -172,8 +172,12 @@ fn the_work_of_drivers_is_as_exact_as_the_tolerance_asks() {
                 energy = energy.max(summary.energy.abs()).max(summary.work.abs());
             }
             println!("{name} at {tolerance:.0e}: {drift:.1e} J of {energy:.1e} J");
-            // Beside a change point joints hardly hold, and what positions are off counts tenfold.
-            let allowed = if name.contains("near-change-point") { 15.0 } else { 1.0 };
+            // Beside a change point joints hardly hold, and what positions are off counts tenfold; through one a driver's force is large.
+            let allowed = match name {
+                "four-bars/near-change-point" => 15.0,
+                "four-bars/parallelogram" => 3.0,
+                _ => 1.0,
+            };
             if drift > allowed * tolerance * energy {
                 missed.push(format!("{name} at {tolerance:.0e}: {drift:.1e} J of {energy:.1e} J"));
             }

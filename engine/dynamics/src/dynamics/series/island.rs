@@ -90,10 +90,10 @@ impl IslandSeries {
         with!(&mut self.0, s => s.leave_out(rows));
     }
 
-    /// Makes room for evaluations inside steps; `row_sizes` tells what Φ of each solver row is measured in, `system` is that of
+    /// Makes room for evaluations inside steps; `system` is that of
     /// the series.
-    pub fn enable_probes(&mut self, system: &System, row_sizes: &[f64]) {
-        with!(&mut self.0, s => s.enable_probes(system, row_sizes));
+    pub fn enable_probes(&mut self, system: &System) {
+        with!(&mut self.0, s => s.enable_probes(system));
     }
 
     /// Whether rows that hardly hold are kept: see [`crate::dynamics::elimination::Elimination::set_resolving`].

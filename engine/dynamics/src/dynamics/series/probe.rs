@@ -22,14 +22,10 @@ impl<const L: usize, B: Bodies<L>> WithSimd for PivotProducts<'_, L, B> {
 }
 
 impl<const L: usize, B: Bodies<L>> Series<L, B> {
-    /// Makes a copy for other states; `row_sizes` tells what Φ of each solver row is measured in, `system` is that of the series.
-    pub fn enable_probes(&mut self, system: &System, row_sizes: &[f64]) {
+    /// Makes a copy for other states of the system.
+    pub fn enable_probes(&mut self, system: &System) {
         self.schur.factor.keep_pivot_products();
         let mut probe = self.clone();
-        probe.row_sizes = vec![1.0; self.schur.factor.numbers()];
-        for (size, &place) in row_sizes.iter().zip(self.schur.factor.places()) {
-            probe.row_sizes[place] = *size;
-        }
         (probe.resolving, probe.corrects_only) = (true, true);
         self.probe = Some(Box::new(probe));
         self.instants = if L > 1 { Instants::new(self, system).map(Box::new) } else { None };

@@ -275,11 +275,19 @@ impl<const L: usize, B: Bodies<L>> Series<L, B> {
         if most.is_some_and(|most| moved.is_nan() || moved > most) {
             return None;
         }
-        if moved > NEGLIGIBLE * plan.tolerance {
+        if self.magnified(h) * moved > NEGLIGIBLE * plan.tolerance {
             self.linearize();
         }
         project_velocities(self, &rules::SERIES_VELOCITIES, plan.length);
         Some((moved, ending == Ending::Consistent))
+    }
+
+    /// How many times what S is off by, as it was factored at the start of a correction, the positions may be off by after a step of size h.
+    /// Reactions that are large for what they act on, as those of a light link that carries heavy ones, are so in other directions.
+    #[inline(always)]
+    pub(super) fn magnified(&self, h: f64) -> f64 {
+        let multipliers = &self.lambda[..self.correction.len()];
+        larger(1.0, 0.5 * h * h * self.schur.factor.largest_alone(multipliers, &self.row_sizes))
     }
 
     /// The largest terms of positions and velocities that a tolerance allows.

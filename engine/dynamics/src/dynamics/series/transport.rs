@@ -423,7 +423,9 @@ impl<const L: usize, B: Bodies<L>> Transport<L, B> {
     /// Moves x − e onto the constraints, where e is worth `whole`.
     fn project(&mut self, series: &Series<L, B>, whole: f64, length: f64) {
         let mut s = 1.0;
-        let negligible = (LEFT_OVER * whole * length).sqrt().max(NEAR * length);
+        // What is left is magnified likewise.
+        let negligible =
+            (LEFT_OVER * whole * length).sqrt().max(NEAR * length) / series.magnified(self.step.1).sqrt();
         if !self.close(series, s, negligible) && DISTURBANCE * length < whole {
             s = DISTURBANCE * length / whole;
             self.close(series, s, NEAR * length);

@@ -5,7 +5,6 @@ use crate::integrate::stepper::IslandStep;
 use crate::integrate::track::Track;
 use crate::scene::Skip;
 use std::ops::RangeInclusive;
-use triad_dynamics::constraints::violation;
 use triad_dynamics::dynamics::elimination::{Counters, TwistJacobian};
 use triad_dynamics::dynamics::series::{IslandSeries, MIN_TOLERANCE_REDUNDANT, StepPlan};
 use triad_dynamics::model::BodyRef;
@@ -112,7 +111,7 @@ impl IslandStepper {
         }
         let redundant = !dependent.is_empty();
         if loops {
-            series.enable_probes(expanded, &violation::row_sizes(expanded));
+            series.enable_probes(expanded);
         }
         if whole.model.settings.error_estimate {
             series.carry_errors(expanded);
