@@ -27,8 +27,8 @@ pub fn all_columns(outputs: &Outputs) -> impl Iterator<Item = Column> {
 }
 
 /// What a table says before its columns.
-pub fn head(run: &Simulation) -> String {
-    let (version, scene) = (env!("CARGO_PKG_VERSION"), &run.model().name);
+pub fn head(scene: &str) -> String {
+    let version = env!("CARGO_PKG_VERSION");
     format!("triad {version}, scene {scene}. All components in the world frame.")
 }
 
@@ -41,7 +41,7 @@ pub struct TextTable<W> {
 impl<W: Write> TextTable<W> {
     /// Writes all that stands before the numbers.
     pub fn new(mut out: W, run: &Simulation, outputs: &Outputs) -> io::Result<Self> {
-        writeln!(out, "# {}", head(run))?;
+        writeln!(out, "# {}", head(&run.model().name))?;
         for sentence in outputs.conventions() {
             writeln!(out, "# {sentence}")?;
         }

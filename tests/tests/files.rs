@@ -93,6 +93,50 @@ fn a_text_goes_to_standard_output_and_what_is_told_elsewhere() {
     }
 }
 
+/// Text under the ending of another kind was found out by the program that read it.
+#[test]
+fn the_ending_of_a_table_says_what_it_is_for_runs_and_sweeps() {
+    let folder = tempfile::tempdir().unwrap();
+    let vary = "/bodies/0/mass=-1:2:3";
+    let run: &[&str] = &["run", "simple-pendulum", "--until", "0.1"];
+    let sweep: &[&str] = &["sweep", "simple-pendulum", "--vary", vary, "--until", "0.1"];
+    let arrow = b"ARROW1\0\0";
+    for (command, done) in [(run, 0), (sweep, 1)] {
+        for ending in ["csv", "CSV", "arrow", "feather", "Feather", ""] {
+            let file = within(folder.path(), &format!("{}.{ending}", command[0]));
+            let file = file.trim_end_matches('.');
+            let (code, _, err) = said(&[command, &["--out", file]].concat());
+            assert_eq!(code, Some(done), "{file}: {err}");
+            let written = fs::read(file).unwrap();
+            let text = ["csv", ""].contains(&ending.to_lowercase().as_str());
+            assert_eq!(std::str::from_utf8(&written).is_ok(), text, "{file}");
+            assert!(text || written.starts_with(arrow) && written.ends_with(b"ARROW1"), "{file}");
+        }
+        for ending in ["json", "parquet", "xlsx", "txt"] {
+            let file = within(folder.path(), &format!("new/a.{ending}"));
+            let (code, _, err) = said(&[command, &["--out", &file]].concat());
+            let refused = format!("tables are not written as .{ending} [unknown-table]");
+            assert!(code == Some(3) && err.contains(&refused) && err.contains(".feather"), "{err}");
+            assert!(!Path::new(&file).parent().unwrap().exists(), "nothing is begun");
+        }
+    }
+}
+
+#[test]
+fn a_sweep_of_which_all_runs_fail_has_no_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let (picture, table) = (within(folder.path(), "a.svg"), within(folder.path(), "a.csv"));
+    let vary = "/bodies/0/mass=-2:-1:2";
+    let files = ["--svg", picture.as_str(), "--out", table.as_str()];
+    let (code, out, err) = said(&[&["sweep", "simple-pendulum", "--vary", vary], &files[..]].concat());
+    assert!(
+        code == Some(1) && out.contains("no picture is written, as no run came to a number"),
+        "{out}{err}"
+    );
+    assert!(out.contains("a.csv") && !out.contains("a.svg") && !Path::new(&picture).exists(), "{out}");
+    assert!(!out.contains("more failed"), "{out}");
+}
+
 #[test]
 fn errors_that_a_scene_chooses_and_does_not_estimate_are_not_left_out_without_a_word() {
     let folder = tempfile::tempdir().unwrap();

@@ -74,6 +74,19 @@ fn a_side_car_turns_joints_and_closes_a_loop_on_a_part_of_a_body() {
     assert_eq!((code, &report["degrees_of_freedom"]), (0, &json!(0)), "{report:#}");
 }
 
+/// The last of two positions counted, and nobody was told.
+#[test]
+fn a_joint_that_a_side_car_gives_twice_is_refused() {
+    let arm = std::fs::read_to_string(data("arm.urdf")).unwrap();
+    for list in ["positions", "velocities"] {
+        let told = imported(&arm, &format!(r#"{{"{list}": {{"elbow": 1, "shoulder": 2, "elbow": 1}}}}"#));
+        let detail = told["detail"].as_str().unwrap();
+        assert!(detail.contains("duplicate field `elbow` at line 1"), "{told:#}");
+        let told = imported(&arm, &format!(r#"{{"{list}": {{"elbow": 1, "shoulder": 2}}}}"#));
+        assert!(told["scene"].is_object(), "{told:#}");
+    }
+}
+
 #[test]
 fn what_is_wrong_is_named_with_its_line() {
     let folder = tempfile::tempdir().unwrap();

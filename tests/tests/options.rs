@@ -300,6 +300,7 @@ fn said(line: &[&str]) -> (Option<i32>, String) {
 }
 
 #[test]
+#[allow(clippy::too_many_lines, reason = "a list")]
 fn what_is_asked_for_is_done_refused_or_told_to_change_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
@@ -309,13 +310,18 @@ fn what_is_asked_for_is_done_refused_or_told_to_change_nothing() {
     let robot = fs::read_to_string(root().join("tests/data/problems/mimic/mimic.urdf")).unwrap();
     fs::write(file("robot.urdf"), robot.replace("joint=\"lead\"", "joint=\"led\"")).unwrap();
     fs::write(file("side.json"), r#"{"positons": {"lead": 1}}"#).unwrap();
+    fs::write(file("double.json"), r#"{"velocities": {"lead": 1, "lead": 2}}"#).unwrap();
     let mut driven: Value = serde_json::to_value(catalogue::scene("crank-rocker").unwrap()).unwrap();
     driven["drivers"][0]["motion"] = json!({"kind": "ramp", "start": 2.5, "rate": 5});
     fs::write(file("driven.json"), driven.to_string()).unwrap();
     let pendulum = "simple-pendulum";
     let vary = "/bodies/0/mass=1:2:2";
-    let cases: [(&[&str], i32, &str); 21] = [
+    let cases: [(&[&str], i32, &str); 26] = [
         (&["reactions", pendulum, "--at", "11"], 3, "which goes from 0 s to 10 s"),
+        (&["reactions", pendulum, "--at", "11"], 3, "it ends after the \"duration\""),
+        (&["run", pendulum, "--until", "1e-300"], 0, "simple-pendulum: 1e-300 s of 1e-300 s\n"),
+        (&["run", pendulum, "--integrator", "foo"], 2, "rattle, and trapezoidal with the treatment"),
+        (&["bench", pendulum, "--integrators", "foo"], 2, "rattle, and trapezoidal with the treatment"),
         (&["reactions", pendulum, "--at", "nan"], 3, "which goes from 0 s to 10 s"),
         (&["reactions", pendulum, "--at", "-1"], 3, "which goes from 0 s to 10 s"),
         (&["run", pendulum, "--until", "-1"], 3, "-1 is not between"),
@@ -349,6 +355,7 @@ fn what_is_asked_for_is_done_refused_or_told_to_change_nothing() {
         ),
         (&["import", &file("robot.urdf")], 0, "<mimic> of led: there is no such joint"),
         (&["import", &file("robot.urdf"), "--with", &file("side.json")], 3, "the side-car could not be read"),
+        (&["import", &file("robot.urdf"), "--with", &file("double.json")], 3, "duplicate field `lead`"),
         (&["check", &file("driven.json")], 3, "driver \"motor\" is open at the start"),
         (&["check", &file("driven.json")], 3, "Let the driver begin where"),
         (&["modes", "governor", "--steady"], 0, "where the bodies stand in it"),

@@ -142,20 +142,9 @@ fn texts_that_are_no_scene() {
     all_reviewed("refusals-scene", [met.text(), names.text()]);
 }
 
-#[test]
-fn scenes_that_cannot_be() {
-    let mut met = Refusals::new(variants!(
-        ModelError: NoBodies, DuplicateName, ReservedName, UnknownName, SameBody, NotFinite, OutOfRange, Mass, Inertia,
-        Asymmetric, Orientation, Geometry, Parameter
-    ));
-    let mut meet = |tried: &str, scene: &Scene| {
-        let EngineError::Model(error) = check_error(scene) else {
-            panic!("{tried}: not an error of the model")
-        };
-        met.meet(tried, &error, error.code(), Some(&error.pointer()), &error.hint());
-    };
-    let body = good()["bodies"][0].clone();
-    for (place, value) in [
+/// Places of a good scene, and what cannot stand there.
+fn what_cannot_be() -> Vec<(&'static str, Value)> {
+    vec![
         ("/bodies", json!([])),
         ("/bodies/0/name", json!("ground")),
         ("/bodies/0/name", json!("")),
@@ -164,6 +153,12 @@ fn scenes_that_cannot_be() {
         ("/joints/0/body_j", json!("ground")),
         ("/simulation/tolerance", json!(0)),
         ("/bodies/0/mass", json!(-2)),
+        ("/bodies/0/attached", json!([{"mass": 0, "point": [0, 1, 0]}])),
+        ("/bodies/0/attached", json!([{"mass": 1, "point": [0, 1, 0], "inertia": {"principal": [1, 1, 5]}}])),
+        (
+            "/bodies/0/attached",
+            json!([{"mass": 1, "point": [0, 1, 0], "inertia": {"tensor": [[1, 0.5, 0], [0, 1, 0], [0, 0, 1]]}}]),
+        ),
         ("/bodies/0/inertia", json!({"principal": [1, 1, 5]})),
         ("/bodies/0/inertia", json!({"tensor": [[1, 0.5, 0], [0, 1, 0], [0, 0, 1]]})),
         ("/bodies/0/orientation", json!({"u": [1, 0, 0]})),
@@ -195,7 +190,23 @@ fn scenes_that_cannot_be() {
         ("/simulation/outputs", json!(["energy:pin"])),
         ("/parameters/0/low", json!(1.5)),
         ("/parameters/0/pointer", json!("/bodies/0/weight")),
-    ] {
+    ]
+}
+
+#[test]
+fn scenes_that_cannot_be() {
+    let mut met = Refusals::new(variants!(
+        ModelError: NoBodies, DuplicateName, ReservedName, UnknownName, SameBody, NotFinite, OutOfRange, Mass, Inertia,
+        Asymmetric, Orientation, Geometry, Parameter
+    ));
+    let mut meet = |tried: &str, scene: &Scene| {
+        let EngineError::Model(error) = check_error(scene) else {
+            panic!("{tried}: not an error of the model")
+        };
+        met.meet(tried, &error, error.code(), Some(&error.pointer()), &error.hint());
+    };
+    let body = good()["bodies"][0].clone();
+    for (place, value) in what_cannot_be() {
         meet(&format!("{place} is {value}"), &scene(&with(place, value.clone())));
     }
     meet("two bodies of one name", &scene(&with("/bodies", json!([body, body]))));
@@ -332,6 +343,11 @@ fn runs_that_cannot_go_on() {
     meet("two steps", &short.advance_to(10.0).unwrap_err());
     let motion = scene(&good()).simulate(0.0..1.0).unwrap();
     meet("a time after the end", &motion.at(3.0).unwrap_err());
+    meet("a time behind a run", &{
+        let mut run = Simulation::new(&scene(&good())).unwrap();
+        run.advance_to(0.5).unwrap();
+        run.advance_to(1e-300).unwrap_err()
+    });
     meet("a joint that is not there", &motion.reaction("pen", 0.5).unwrap_err());
     meet("an event that is not there", &motion.times_of("lowest").unwrap_err());
 

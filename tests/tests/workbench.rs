@@ -321,6 +321,27 @@ fn a_sweep_tells_the_errors_of_what_it_tells() {
     assert!(failed.contains("0 of 2 runs, 2 failed") && !failed.contains("  error "), "{failed}");
 }
 
+/// "is no name with values" was said of all of these, and five failures were told of any number.
+#[test]
+fn a_sweep_says_what_is_wrong_with_its_values_and_how_many_runs_failed() {
+    for (vary, code, words) in [
+        ("mass", 3, "no = stands between a name and its values"),
+        ("mass=1:2", 3, "\"1:2\" is no grid and no distribution"),
+        ("mass=1:2:0", 3, "whole number from 1 on, and \"0\" is none"),
+        ("mass=1:2:2.5", 3, "whole number from 1 on, and \"2.5\" is none"),
+        ("mass=normal:1:-0.1", 3, "a deviation is not below 0, as -0.1 is"),
+        ("mass=nan:1:3", 3, "\"nan\" is no finite number"),
+        ("mass=uniform:1:inf", 3, "\"inf\" is no finite number"),
+        ("mass=-9:-1:8", 1, "  … and 3 more failed runs; --json tells all\n"),
+        ("/bodies/0/mass=20:30:2", 0, "2 of 2 runs"),
+    ] {
+        let done = run(&["sweep", "simple-pendulum", "--vary", vary, "--until", "0.1"]);
+        let told =
+            [&done.stdout, &done.stderr].map(|text| String::from_utf8_lossy(text).into_owned()).concat();
+        assert!(done.status.code() == Some(code) && told.contains(words), "{vary}: {told}");
+    }
+}
+
 /// Names are an author's: one with a comma once moved all columns behind it.
 #[test]
 fn a_table_of_a_sweep_has_as_many_names_as_numbers() {

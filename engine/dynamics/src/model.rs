@@ -35,7 +35,7 @@ pub use output::wants_joint;
 pub use placement::ModelStart;
 pub(crate) use placement::driven_instead;
 
-use crate::scene::{ConstraintMethod, Driver, Event, Load, Marker, Scene, Settings, WrittenScene};
+use crate::scene::{ConstraintMethod, Driver, Event, Load, Marker, Scene, Settings};
 use nalgebra::Vector3;
 use placement::DrivenFrom;
 use reader::ModelReader;
@@ -100,19 +100,6 @@ impl Model {
     ///
     /// [`ModelError`]: the first thing in the scene that cannot be, with its place as a JSON pointer and what to try.
     pub fn new(scene: &Scene) -> Result<Self, ModelError> {
-        Self::checked(scene, None)
-    }
-
-    /// As [`Model::new`], of a scene that has been read from what is written: its parameters are looked up there.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Model::new`].
-    pub fn of_written(scene: &Scene, written: &WrittenScene) -> Result<Self, ModelError> {
-        Self::checked(scene, Some(written))
-    }
-
-    fn checked(scene: &Scene, written: Option<&WrittenScene>) -> Result<Self, ModelError> {
         within(&scene.gravity, MAX_LENGTH, "/gravity")?;
         check_settings(&scene.simulation)?;
         if scene.bodies.is_empty() {
@@ -156,7 +143,7 @@ impl Model {
         let events = read_list("events", &scene.events, Event::name, |index, written| {
             ModelEvent::new(written, &reader("events", index, &written.name), &markers)
         })?;
-        parameter::check(scene, written)?;
+        parameter::check(scene)?;
         output::check(scene)?;
         Ok(Self {
             name: scene.name.clone(),

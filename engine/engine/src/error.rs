@@ -9,7 +9,7 @@ use crate::integrate::StopReason;
 use crate::reactions::uniqueness::UniquenessError;
 use crate::scene::IntegratorKind;
 use crate::scene::SceneError;
-use crate::scene::text::nearest_name;
+use crate::scene::text::{nearest_name, short};
 use triad_dynamics::constraints::ConstraintError;
 use triad_dynamics::model::{CustomLoadError, ModelError};
 
@@ -137,7 +137,7 @@ pub enum EngineError {
         last: LastGood,
     },
     /// A requested time is outside the run.
-    #[error("t = {time} s is outside the run, which goes from {from} s to {to} s")]
+    #[error("t = {time} s is outside the run, which goes from {from} s to {to} s", time = short(*time), from = short(*from), to = short(*to))]
     TimeOutside {
         /// The requested time, s.
         time: f64,
@@ -345,10 +345,21 @@ impl EngineError {
             Self::StepLimit { .. } => {
                 "Allow more steps, loosen the tolerance, or look for a stiff spring or a fast driver.".to_owned()
             }
-            Self::TimeOutside { .. } => "Ask for a time within the run, or reset it first.".to_owned(),
+            Self::TimeOutside { time, from, .. } => later_or_earlier(*time, *from).to_owned(),
             Self::UnknownName { nearest: Some(nearest), .. } => format!("Did you mean \"{nearest}\"?"),
             Self::UnknownName { what, .. } => format!("Ask for a {what} by its name in the scene."),
         }
+    }
+}
+
+/// What to try in place of a time outside a run that has what is from `from` on, s.
+fn later_or_earlier(time: f64, from: f64) -> &'static str {
+    // Only a run that has gone on has times behind it.
+    if from > 0.0 && time < from {
+        "Ask for a later time, or reset the run first."
+    } else {
+        "Ask for a time within the run: it ends after the \"duration\" in the scene's \"simulation\", or at an event that \
+         stops it."
     }
 }
 

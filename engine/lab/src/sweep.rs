@@ -12,7 +12,6 @@ pub use plot::svg;
 use rayon::ThreadPoolBuilder;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use triad_engine::EngineError;
-use triad_engine::model::Model;
 use triad_engine::run::{Column, Outputs, Simulation};
 use triad_scene::WrittenScene;
 
@@ -167,7 +166,7 @@ impl<W: Watch> SharedParts<'_, W> {
     fn start(&self, written: &mut WrittenScene, values: &[f64]) -> Result<Simulation, EngineError> {
         let varied = self.plan.varied.iter().zip(values);
         written.set_numbers(varied.flat_map(|(variation, value)| variation.changes(*value)))?;
-        Simulation::from_model(Model::of_written(&written.read()?, written)?)
+        Simulation::new(&written.read()?)
     }
 
     /// Runs to the end; none if it was cancelled on the way.

@@ -96,21 +96,53 @@ fn a_run_that_cannot_be_is_listed_and_ends_nothing_else() {
         .map(|run| run.result.as_ref().map_or_else(triad_engine::EngineError::code, |_| ""))
         .collect();
     assert_eq!(codes, ["mass-not-positive", "mass-not-positive", "mass-not-positive", "", ""]);
+    let lost = Values::Grid { from: -2.0, to: -1.0, count: 3 };
+    let found = sweep(&plan(&[("/bodies/0/mass", lost)], 1), 1, &Unwatched).unwrap();
+    assert_eq!(svg(&found, 0), None, "a picture of nothing");
 }
 
+/// Sliders of the page bound runs: samples beyond their ranges were lost, and of places that they move together none could be varied alone.
 #[test]
-fn a_run_outside_the_range_of_a_parameter_is_refused_as_alone() {
-    let masses = Values::Grid { from: 1.0, to: 1000.0, count: 2 };
-    let mut scene = pendulum();
-    scene.parameters.retain(|parameter| parameter.places()[0].pointer() == "/bodies/0/mass");
-    assert_eq!(scene.parameters.len(), 1, "the built-in scene offers its mass");
-    let vary = Variation::new(&scene, "/bodies/0/mass", masses).unwrap();
-    let found =
-        sweep(&SweepPlan { varied: vec![vary], ..SweepPlan::new(scene.clone()) }, 1, &Unwatched).unwrap();
-    let alone = scene.changed([], [("/bodies/0/mass", &json!(1000.0))]).unwrap();
-    let refused = Simulation::new(&alone).unwrap_err();
-    assert_eq!(found.runs[1].result, Err(refused));
-    assert!(found.runs[0].result.is_ok());
+fn parameters_of_the_page_bind_no_run() {
+    let ends = |name: &str, from: f64, to: f64| {
+        let found = sweep(&plan(&[(name, Values::Grid { from, to, count: 2 })], 1), 1, &Unwatched).unwrap();
+        found.runs.into_iter().map(|run| run.result.unwrap().outputs).collect::<Vec<_>>()
+    };
+    // What the run of the changed scene tells, which nobody is offered to change.
+    let alone = |places: &[(&str, f64)]| {
+        let values: Vec<_> = places.iter().map(|(place, number)| (*place, json!(number))).collect();
+        let mut scene = pendulum();
+        scene.parameters.clear();
+        let scene = scene.changed([], values.iter().map(|(place, number)| (*place, number))).unwrap();
+        let mut run = Simulation::new(&scene).unwrap();
+        run.advance_to(0.7).unwrap();
+        let mut outputs = Vec::new();
+        Outputs::new(&run).write(&run, &mut outputs);
+        outputs
+    };
+    let scene = pendulum();
+    let of = |name: &str| scene.parameter(name).unwrap();
+    assert_eq!((of("mass").low, of("mass").high), (0.1, 10.0));
+    // A name and a pointer go beyond the range.
+    for name in ["mass", "/bodies/0/mass"] {
+        assert_eq!(
+            ends(name, 0.05, 1000.0),
+            [0.05, 1000.0].map(|mass| alone(&[("/bodies/0/mass", mass)])),
+            "{name}"
+        );
+    }
+    // All places of a parameter follow its name, a pointer changes its place alone.
+    let places = of("length").places();
+    assert!(places.len() > 1, "the built-in scene moves several numbers together");
+    let together = |value: f64| {
+        alone(&places.iter().map(|place| (place.pointer(), value * place.factor())).collect::<Vec<_>>())
+    };
+    assert_eq!(ends("length", 0.5, 40.0), [0.5, 40.0].map(together));
+    let one = places[0].pointer();
+    assert_eq!(ends(one, -1.5, -0.5), [-1.5, -0.5].map(|x| alone(&[(one, x)])));
+    // They are no part of what is run.
+    let low = Values::Grid { from: 1.0, to: 2.0, count: 2 };
+    assert!(Variation::new(&scene, "/parameters/0/low", low).is_err());
 }
 
 /// Cancels after some runs.
@@ -139,7 +171,7 @@ fn what_was_done_before_it_is_cancelled_is_kept() {
 #[test]
 fn a_picture_has_a_mark_for_each_run() {
     let found: Sweep = sweep(&both(), 0, &Unwatched).unwrap();
-    let picture = svg(&found, 1);
+    let picture = svg(&found, 1).unwrap();
     assert_eq!(picture.matches("<circle").count(), 36);
     assert!(picture.contains("pin.angle_rate, rad/s") && !picture.contains("NaN"), "{picture}");
 }
@@ -172,7 +204,7 @@ fn a_picture_is_drawn_of_any_values_and_its_labels_are_the_values_there() {
         for (run, value) in found.runs.iter_mut().zip(values) {
             run.result.as_mut().unwrap().outputs[0] = value;
         }
-        svg(&found, 0)
+        svg(&found, 0).unwrap()
     };
     for values in [
         [1.0, 1.0 + f64::EPSILON],

@@ -74,8 +74,8 @@ impl Sweep {
         self.found.runs.iter().map(|run| run.result.as_ref().map_or(1, |end| end.doubts)).collect()
     }
 
-    /// An output over the first varied number, as SVG.
-    fn svg(&self, column: usize) -> String {
+    /// An output over the first varied number, as SVG; none if no run has a number to be drawn.
+    fn svg(&self, column: usize) -> Option<String> {
         lab::svg(&self.found, column)
     }
 }

@@ -229,6 +229,12 @@ def test_a_sweep_names_the_runs_that_stopped():
     found = triad.sweep("simple-pendulum", {"/bodies/0/mass": triad.grid(-1, 1, 3)}, until=0.1)
     assert [stop["run"] for stop in found.stopped] == [0, 1] and found.stopped[0]["hint"]
     assert np.isnan(found.outputs[0]).all() and not np.isnan(found.outputs[2]).any()
+    # A picture of nothing is none.
+    lost = triad.sweep("simple-pendulum", {"/bodies/0/mass": triad.grid(-2, -1, 2)}, until=0.1)
+    assert lost._repr_svg_() is None
+    with pytest.raises(triad.TriadError, match="no run of this sweep") as refused:
+        lost.svg()
+    assert refused.value.code == "nothing-to-draw"
     # Three bare numbers could be values, or the ends of a grid and a count.
     for wrong in ((1, 2), (1, 2, 3), (1.0, 1.5, 2.0), triad.normal(1, -0.1), triad.grid(1, float("nan"), 3), [1, 2, 4], np.array([1.0, np.nan]), ["a"], np.ones((2, 2))):
         with pytest.raises(triad.TriadError, match="cannot vary"):

@@ -56,6 +56,18 @@ macro_rules! words {
 }
 pub(crate) use words;
 
+/// A number, by its power of ten where it would fill the line.
+///
+/// ```
+/// use triad_scene::text::short;
+///
+/// assert_eq!([2.5, 0.0, 1e-300].map(short), ["2.5", "0", "1e-300"]);
+/// ```
+pub fn short(number: f64) -> String {
+    let size = number.abs();
+    if size >= 1e21 || (size > 0.0 && size < 1e-14) { format!("{number:e}") } else { number.to_string() }
+}
+
 /// The candidate that differs from `name` in the fewest letters, if it is near.
 pub fn nearest_name<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
     candidates

@@ -4,7 +4,15 @@ use triad_engine::scene::{ConstraintMethod, Coordinates, IntegratorKind, Output,
 
 /// The integrator of that name.
 pub(super) fn integrator(word: &str) -> Result<IntegratorKind, String> {
-    word.parse().map_err(|UnknownWord(words)| format!("no such integrator; there are {words}"))
+    word.parse().map_err(|UnknownWord(_)| {
+        // One is solved together with a treatment, which brings it along: asked for without that it is refused.
+        let alone = IntegratorKind::ALL.into_iter().filter(|kind| *kind != IntegratorKind::Trapezoidal);
+        let words: Vec<String> = alone.map(|kind| kind.to_string()).collect();
+        format!(
+            "no such integrator; there are {}, and trapezoidal with the treatment augmented-lagrangian",
+            words.join(", ")
+        )
+    })
 }
 
 /// The treatment of that name, with its usual strength.

@@ -14,6 +14,7 @@ mod output;
 mod scene;
 mod serve;
 mod stops;
+mod table;
 mod terminal;
 
 use std::ffi::OsString;

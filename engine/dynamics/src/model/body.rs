@@ -53,7 +53,7 @@ impl ModelBody {
         for (key, vector) in vectors {
             within(&vector, MAX_LENGTH, &at(key))?;
         }
-        check_mass(body, body.mass, &at("mass"))?;
+        check_mass(&named(body), body.mass, &at("mass"))?;
         let Composite { mass, center_of_mass, principal, principal_axes } = Composite::of(body, &at, notes)?;
         let frame = orientation(body, &at("orientation"), notes)?;
         let angular_velocity = Vector3::from(body.angular_velocity);
@@ -119,11 +119,17 @@ impl ModelBody {
     }
 }
 
-fn check_mass(body: &Body, mass: f64, pointer: &str) -> Result<(), ModelError> {
+/// What errors and notes call a body.
+fn named(body: &Body) -> String {
+    format!("body \"{}\"", body.name)
+}
+
+/// Refuses a mass of that body, or of what is attached to one.
+fn check_mass(element: &str, mass: f64, pointer: &str) -> Result<(), ModelError> {
     finite(&[mass], pointer)?;
     let (low, high) = (MIN_MASS, MAX_MASS);
     if mass <= 0.0 {
-        return Err(ModelError::Mass { body: body.name.clone(), pointer: pointer.to_owned(), mass });
+        return Err(ModelError::Mass { element: element.to_owned(), pointer: pointer.to_owned(), mass });
     }
     if !(low..=high).contains(&mass) {
         return Err(ModelError::OutOfRange { pointer: pointer.to_owned(), value: mass, low, high });
@@ -141,8 +147,8 @@ struct Composite {
 
 impl Composite {
     fn of(body: &Body, at: &impl Fn(&str) -> String, notes: &mut Vec<String>) -> Result<Self, ModelError> {
-        let own = Vector3::from(body.center_of_mass);
-        let (moments, axes) = principal_inertia(body, body.inertia.as_ref(), &at("inertia"), notes)?;
+        let (own, of_body) = (Vector3::from(body.center_of_mass), named(body));
+        let (moments, axes) = principal_inertia(&of_body, body.inertia.as_ref(), &at("inertia"), notes)?;
         if body.attached.is_empty() {
             let (principal, principal_axes) = (moments, axes);
             return Ok(Self { mass: body.mass, center_of_mass: own, principal, principal_axes });
@@ -151,18 +157,19 @@ impl Composite {
         let mut parts = vec![(body.mass, own, tensor(&moments, &axes))];
         for (index, attached) in body.attached.iter().enumerate() {
             let at = |key: &str| at(&format!("attached/{index}/{key}"));
-            check_mass(body, attached.mass, &at("mass"))?;
+            let element = format!("attached[{index}] of {of_body}");
+            check_mass(&element, attached.mass, &at("mass"))?;
             within(&attached.point, MAX_LENGTH, &at("point"))?;
-            let (moments, axes) = principal_inertia(body, attached.inertia.as_ref(), &at("inertia"), notes)?;
+            let inertia = attached.inertia.as_ref();
+            let (moments, axes) = principal_inertia(&element, inertia, &at("inertia"), notes)?;
             parts.push((attached.mass, Vector3::from(attached.point), tensor(&moments, &axes)));
         }
         let (mass, center_of_mass, whole) = composed(&parts);
         let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| whole[(i, j)]));
         let (principal, principal_axes) =
-            principal_inertia(body, Some(&Inertia::Tensor(rows)), &at("attached"), notes)?;
+            principal_inertia(&of_body, Some(&Inertia::Tensor(rows)), &at("attached"), notes)?;
         notes.push(format!(
-            "body \"{}\": with {} attached masses it has {mass} kg, its centre of mass at ({:.6}, {:.6}, {:.6})",
-            body.name,
+            "{of_body}: with {} attached masses it has {mass} kg, its centre of mass at ({:.6}, {:.6}, {:.6})",
             body.attached.len(),
             center_of_mass[0],
             center_of_mass[1],
@@ -196,7 +203,7 @@ fn tensor(moments: &Vector3<f64>, axes: &Matrix3<f64>) -> Matrix3<f64> {
 
 /// Principal moments and axes (columns, right-handed) of an inertia of a body or of one of its parts.
 fn principal_inertia(
-    body: &Body,
+    element: &str,
     inertia: Option<&Inertia>,
     pointer: &str,
     notes: &mut Vec<String>,
@@ -208,11 +215,10 @@ fn principal_inertia(
             (Vector3::from(*moments), Matrix3::identity())
         }
         Some(Inertia::Tensor(rows)) => {
-            let (moments, axes) = diagonalize(body, rows, &format!("{pointer}/tensor"))?;
+            let (moments, axes) = diagonalize(element, rows, &format!("{pointer}/tensor"))?;
             if axes != Matrix3::identity() {
                 notes.push(format!(
-                    "body \"{}\": principal moments {:.6e}, {:.6e}, {:.6e} kg m² found along {}",
-                    body.name,
+                    "{element}: principal moments {:.6e}, {:.6e}, {:.6e} kg m² found along {}",
                     moments[0],
                     moments[1],
                     moments[2],
@@ -229,7 +235,7 @@ fn principal_inertia(
     let total = moments.sum();
     if moments.iter().any(|&i| i < 0.0 || 2.0 * i > total + slack) {
         return Err(ModelError::Inertia {
-            body: body.name.clone(),
+            element: element.to_owned(),
             pointer: pointer.to_owned(),
             a: moments[0],
             b: moments[1],
@@ -240,7 +246,7 @@ fn principal_inertia(
 }
 
 fn diagonalize(
-    body: &Body,
+    element: &str,
     rows: &[Triple; 3],
     pointer: &str,
 ) -> Result<(Vector3<f64>, Matrix3<f64>), ModelError> {
@@ -252,8 +258,8 @@ fn diagonalize(
     for (row, column) in [(0, 1), (0, 2), (1, 2)] {
         let difference = (tensor[(row, column)] - tensor[(column, row)]).abs();
         if difference > PRINTED * largest {
-            let (body, pointer) = (body.name.clone(), pointer.to_owned());
-            return Err(ModelError::Asymmetric { body, pointer, row, column, difference });
+            let (element, pointer) = (element.to_owned(), pointer.to_owned());
+            return Err(ModelError::Asymmetric { element, pointer, row, column, difference });
         }
     }
     if [(0, 1), (0, 2), (1, 2)].iter().all(|&(i, j)| tensor[(i, j)] == 0.0 && tensor[(j, i)] == 0.0) {

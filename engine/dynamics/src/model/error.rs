@@ -1,5 +1,6 @@
 //! What can be wrong with a scene that reads well.
 
+use crate::scene::text::short;
 use std::fmt;
 
 /// Where a scene chooses outputs.
@@ -146,10 +147,10 @@ pub enum ModelError {
         high: f64,
     },
     /// A mass that is zero or negative.
-    #[error("body \"{body}\": its mass is {mass} kg, but a mass must be positive")]
+    #[error("{element}: its mass is {mass} kg, but a mass must be positive")]
     Mass {
-        /// The body.
-        body: String,
+        /// The body, or what is attached to it.
+        element: String,
         /// Where.
         pointer: String,
         /// The mass, kg.
@@ -157,12 +158,12 @@ pub enum ModelError {
     },
     /// Principal moments that no distribution of mass has.
     #[error(
-        "body \"{body}\": its principal moments of inertia {a}, {b}, {c} kg m² break the triangle inequality \
+        "{element}: its principal moments of inertia {a}, {b}, {c} kg m² break the triangle inequality \
          (each must be at least zero and at most the sum of the other two)"
     )]
     Inertia {
-        /// The body.
-        body: String,
+        /// The body, or what is attached to it.
+        element: String,
         /// Where.
         pointer: String,
         /// First moment, kg m².
@@ -174,11 +175,11 @@ pub enum ModelError {
     },
     /// An inertia tensor that is not symmetric.
     #[error(
-        "body \"{body}\": its inertia tensor is not symmetric (I[{row}][{column}] differs by {difference} kg m²)"
+        "{element}: its inertia tensor is not symmetric (I[{row}][{column}] differs by {difference} kg m²)"
     )]
     Asymmetric {
-        /// The body.
-        body: String,
+        /// The body, or what is attached to it.
+        element: String,
         /// Where.
         pointer: String,
         /// Row of the entry.
@@ -355,10 +356,4 @@ impl GeometryFault {
             }
         }
     }
-}
-
-/// A number, by its power of ten where it would fill the line.
-fn short(number: f64) -> String {
-    let size = number.abs();
-    if size >= 1e21 || (size > 0.0 && size < 1e-14) { format!("{number:e}") } else { number.to_string() }
 }

@@ -3,18 +3,17 @@
 use super::error::ModelError;
 use super::unique_name;
 use crate::scene::{Parameter, Scene, WrittenScene};
-use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// Relative difference up to which two numbers that an author has written agree.
 const AGREES: f64 = 1e-9;
 
 /// Refuses parameters that name no number, or numbers outside their own range.
-pub(super) fn check(scene: &Scene, written: Option<&WrittenScene>) -> Result<(), ModelError> {
+pub(super) fn check(scene: &Scene) -> Result<(), ModelError> {
     if scene.parameters.is_empty() {
         return Ok(());
     }
-    let written = written.map_or_else(|| Cow::Owned(WrittenScene::new(scene)), Cow::Borrowed);
+    let written = WrittenScene::new(scene);
     let mut names = HashMap::new();
     for (index, parameter) in scene.parameters.iter().enumerate() {
         unique_name(&mut names, ("parameters", index), &parameter.name, index, |k| {

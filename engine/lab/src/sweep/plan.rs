@@ -53,7 +53,8 @@ impl Variation {
         self.places.iter().any(|(place, _)| place == pointer)
     }
 
-    /// Of a parameter of the scene by its name, or of a number by a JSON pointer such as `/bodies/0/mass`.
+    /// Of a parameter of the scene by its name, which sets all its places, or of a number by a JSON pointer such as `/bodies/0/mass`,
+    /// which sets that alone.
     ///
     /// # Errors
     ///
@@ -65,7 +66,7 @@ impl Variation {
             let parameter = scene.parameter(name)?;
             parameter.places().iter().map(|place| (place.pointer().to_owned(), place.factor())).collect()
         };
-        let written = WrittenScene::new(scene);
+        let written = WrittenScene::new(&without_sliders(scene.clone()));
         for (pointer, _) in &places {
             written.number(pointer)?;
         }
@@ -81,7 +82,7 @@ impl Variation {
 /// What is run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepPlan {
-    /// The scene; its outputs at the end are what is told of each run.
+    /// The scene, without parameters; its outputs at the end are what is told of each run.
     pub scene: Scene,
     /// What is varied: grids are crossed, the last one changes fastest.
     pub varied: Vec<Variation>,
@@ -131,10 +132,17 @@ pub enum SweepError {
     },
 }
 
+/// The scene as it is run. Its parameters are for the page: how far its sliders go, and which numbers they move together. A sweep goes
+/// beyond that, and varies one of these numbers without the others.
+fn without_sliders(mut scene: Scene) -> Scene {
+    scene.parameters.clear();
+    scene
+}
+
 impl SweepPlan {
     /// The scene alone, once.
     pub fn new(scene: Scene) -> Self {
-        Self { scene, varied: Vec::new(), samples: 1, seed: 1 }
+        Self { scene: without_sliders(scene), varied: Vec::new(), samples: 1, seed: 1 }
     }
 
     /// The same, with estimated errors beside the outputs that the scene chooses, if it estimates any: no number without its error,

@@ -13,13 +13,16 @@ const MARGINS: [f64; 4] = [84.0, 24.0, 34.0, 46.0];
 /// Radius of a mark, px.
 const MARK: f64 = 2.5;
 
-/// The output of that column over the first varied number as SVG; runs that failed are left out.
-pub fn svg(sweep: &Sweep, column: usize) -> String {
+/// The output of that column over the first varied number as SVG; runs that failed are left out. None if no run has a value to be drawn.
+pub fn svg(sweep: &Sweep, column: usize) -> Option<String> {
     let reached = sweep.runs.iter().enumerate().filter_map(|(index, run)| {
         let x = run.values.first().copied().unwrap_or(index as f64);
         Some((x, *run.result.as_ref().ok()?.outputs.get(column)?))
     });
     let points: Vec<(f64, f64)> = reached.filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
+    if points.is_empty() {
+        return None;
+    }
     let frame = PlotFrame {
         size: SIZE,
         margins: MARGINS,
@@ -51,5 +54,5 @@ pub fn svg(sweep: &Sweep, column: usize) -> String {
         );
     }
     out.push_str("</svg>\n");
-    out
+    Some(out)
 }

@@ -88,10 +88,13 @@ class Sweep(Columns):
         if self._found is None:
             what = "this sweep was pickled: it has its numbers, and no pictures"
             raise refusal("sweep-without-engine", what, "take s.svg(...) before it is pickled, or draw s.to_pandas()")
-        return self._found.svg(which)
+        picture = self._found.svg(which)
+        if picture is None:
+            raise refusal("nothing-to-draw", "no run of this sweep came to a number that could be drawn", "s.stopped says why runs stopped")
+        return picture
 
     def _repr_svg_(self) -> Optional[str]:
-        return self.svg() if self._found else None
+        return self._found.svg(0) if self._found else None
 
     def __repr__(self) -> str:
         failed = f", {len(self.stopped)} of them stopped" if self.stopped else ""
@@ -115,7 +118,8 @@ def sweep(
     """Runs a scene with varied numbers, on all cores. The results do not depend on the number of threads.
 
     vary      names of parameters of the scene, or JSON pointers such as "/bodies/0/mass", each with ``grid(1, 2, 11)``,
-              ``uniform(1, 2)`` or ``normal(1, 0.1)``, or a list or array of values at equal distances
+              ``uniform(1, 2)`` or ``normal(1, 0.1)``, or a list or array of values at equal distances. All places of a parameter
+              follow its name, a pointer changes its place alone, and the ranges of parameters, which are for the page, bind no run
     samples   runs with drawn numbers at each point of the grids
     seed      where drawn numbers come from: the same seed gives the same runs
     threads   0 takes one for each core

@@ -11,6 +11,7 @@ use triad_lab::bench::{
 };
 
 use super::raster::{RasterError, png};
+use crate::cli::choice;
 use crate::cli::clock::Clock;
 use crate::cli::output::{make_folder, not_standard, write};
 use crate::cli::terminal::{Outcome, print_json, print_line, progress};
@@ -29,7 +30,7 @@ pub(in crate::cli) struct Bench {
     #[arg(long, value_name = "SCENES", value_delimiter = ',')]
     scenes: Vec<String>,
     /// Integrators, by the scene format's words.
-    #[arg(long, value_name = "WORDS", value_delimiter = ',')]
+    #[arg(long, value_name = "WORDS", value_delimiter = ',', value_parser = choice::integrator)]
     integrators: Vec<IntegratorKind>,
     /// A constraint treatment, as in a scene: a word, or `{"kind": "baumgarte", "alpha": 5, "beta": 5}`; may be
     /// given more than once.

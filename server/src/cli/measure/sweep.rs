@@ -1,5 +1,8 @@
 //! `triad sweep`: many runs of one scene with varied numbers.
 
+mod table;
+mod vary;
+
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -7,19 +10,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use axum::http::StatusCode;
 use clap::Args;
 use serde_json::{Value, json};
-use triad_engine::EngineError;
 use triad_engine::run::Simulation;
 use triad_engine::scene::{IntegratorKind, Output, Scene};
-use triad_lab::csv::quoted;
-use triad_lab::sweep::{
-    Reached, Sweep, SweepError, SweepPlan, SweepRun, Values, Variation, Watch, svg, sweep,
-};
+use triad_lab::sweep::{Reached, Sweep, SweepError, SweepPlan, SweepRun, Variation, Watch, svg, sweep};
 
 use crate::cli::choice;
 use crate::cli::clock::Clock;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::output::{Form, apart, is_standard, make_room, write};
 use crate::cli::scene::run::{LEAVE_OUT, as_asked};
+use crate::cli::table::TableKind;
 use crate::cli::terminal::{Outcome, TimeBar, counted, print_json, print_line, progress};
 use crate::problem::Problem;
 use crate::scenes;
@@ -27,7 +27,7 @@ use crate::table::with_errors;
 
 /// Columns that are summed up on the terminal; the table has all of them.
 const SHOWN: usize = 12;
-/// Failed runs that are told on the terminal; the table has all of them.
+/// Failed runs that are told on the terminal; for machines all of them are.
 const TOLD: usize = 5;
 
 #[derive(Debug, Args)]
@@ -35,8 +35,9 @@ pub(in crate::cli) struct Options {
     /// A built-in scene's name (`triad scenes` lists them), or a file.
     scene: String,
     /// A number that varies, and its values: FROM:TO:COUNT for a grid, uniform:FROM:TO or normal:MEAN:DEVIATION for
-    /// numbers drawn at random. NAME is a parameter of the scene or a JSON pointer like /bodies/0/mass. May be given
-    /// more than once: grids are crossed.
+    /// numbers drawn at random. NAME is a parameter of the scene, all of whose places follow it, or a JSON pointer like
+    /// /bodies/0/mass, which changes that place alone; the ranges of parameters are for the page and bind no run. May be
+    /// given more than once: grids are crossed.
     #[arg(long, value_name = "NAME=VALUES", required = true)]
     vary: Vec<String>,
     /// Runs with numbers drawn at random, at each point of the grids.
@@ -64,7 +65,7 @@ pub(in crate::cli) struct Options {
     /// beside it, unless --no-estimate leaves them out.
     #[arg(long, value_name = "WORD,…", value_delimiter = ',', value_parser = choice::output)]
     outputs: Vec<Output>,
-    /// Write all runs as CSV.
+    /// Write all runs: CSV (`-` for standard output), or Arrow (Feather) if the file ends in .arrow or .feather.
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
     /// Draw an output over the first varied number, as SVG.
@@ -118,6 +119,7 @@ pub(in crate::cli) fn run(options: &Options, json: bool) -> Result<Outcome, Prob
         ("--svg", options.svg.as_deref(), Form::Text),
     ];
     apart(&files, json)?;
+    let kind = options.out.as_deref().map_or(Ok(TableKind::Csv), TableKind::of)?;
     let plan = plan(options)?;
     let count = plan.count()?;
     let mut notes = replaced(options, &plan.scene)?;
@@ -135,11 +137,9 @@ pub(in crate::cli) fn run(options: &Options, json: bool) -> Result<Outcome, Prob
     let of_runs: Vec<String> = of_runs.map(of_run).collect();
     notes.extend(of_runs);
     clock.lap("run");
-    if let Some(path) = &options.out {
-        write(path, table(&found))?;
-    }
-    if let Some(path) = &options.svg {
-        write(path, svg(&found, drawn))?;
+    let written = written(options, kind, &plan.scene, &found, drawn)?;
+    if written.len() < [&options.out, &options.svg].into_iter().flatten().count() {
+        notes.push("no picture is written, as no run came to a number that it could show".to_owned());
     }
     clock.lap("write");
     let left = count - found.runs.len();
@@ -160,12 +160,33 @@ pub(in crate::cli) fn run(options: &Options, json: bool) -> Result<Outcome, Prob
             print_line(&format!("  note                   {note}"));
         }
         print_line(&clock.line());
-        let files = [&options.out, &options.svg].into_iter().flatten();
-        for file in files.filter(|file| !is_standard(file)) {
+        for file in written.into_iter().filter(|file| !is_standard(file)) {
             print_line(&format!("  written                {}", file.display()));
         }
     }
     Ok(if left == 0 && found.runs.iter().all(|run| run.result.is_ok()) { Outcome::Done } else { Outcome::No })
+}
+
+/// Writes what is asked for, and tells which files there are now: a picture that would be empty is none.
+fn written<'a>(
+    options: &'a Options,
+    kind: TableKind,
+    scene: &Scene,
+    found: &Sweep,
+    drawn: usize,
+) -> Result<Vec<&'a Path>, Problem> {
+    let mut written = Vec::new();
+    if let Some(path) = options.out.as_deref() {
+        table::write(path, kind, &scene.name, found)?;
+        written.push(path);
+    }
+    if let Some(path) = options.svg.as_deref()
+        && let Some(picture) = svg(found, drawn)
+    {
+        write(path, picture)?;
+        written.push(path);
+    }
+    Ok(written)
 }
 
 /// What was told of a run, and of others likewise.
@@ -187,7 +208,8 @@ fn plan(options: &Options) -> Result<SweepPlan, Problem> {
         settings.outputs.clone_from(&options.outputs);
     }
     with_errors(settings, asked, LEAVE_OUT)?;
-    let varied: Vec<_> = options.vary.iter().map(|text| variation(&scene, text)).collect::<Result<_, _>>()?;
+    let read = |text: &String| vary::variation(&scene, text);
+    let varied: Vec<_> = options.vary.iter().map(read).collect::<Result<_, _>>()?;
     given_once("--until", options.until, "/simulation/duration", &varied)?;
     given_once("--tolerance", options.tolerance, "/simulation/tolerance", &varied)?;
     Ok(SweepPlan { varied, samples: options.samples, seed: options.seed, ..SweepPlan::with_errors(scene) })
@@ -214,36 +236,6 @@ fn replaced(options: &Options, scene: &Scene) -> Result<Vec<String>, Problem> {
         as_asked(&simulation)?;
     }
     Ok(simulation.notes().iter().filter(|note| note.starts_with("runs by ")).cloned().collect())
-}
-
-/// Reads `NAME=FROM:TO:COUNT`, `NAME=uniform:FROM:TO` or `NAME=normal:MEAN:DEVIATION`.
-fn variation(scene: &Scene, text: &str) -> Result<Variation, Problem> {
-    let read = || {
-        let (name, values) = text.rsplit_once('=')?;
-        let parts: Vec<&str> = values.split(':').collect();
-        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
-        let values = match parts[..] {
-            ["uniform", from, to] => Values::Uniform { from: number(from)?, to: number(to)? },
-            ["normal", mean, deviation] => {
-                Values::Normal { mean: number(mean)?, deviation: number(deviation).filter(|x| *x >= 0.0)? }
-            }
-            [from, to, count] => {
-                let count = count.trim().parse().ok().filter(|count| *count > 0)?;
-                Values::Grid { from: number(from)?, to: number(to)?, count }
-            }
-            _ => return None,
-        };
-        Some((name, values))
-    };
-    let (name, values) = read().ok_or_else(|| {
-        Problem::new(
-            StatusCode::UNPROCESSABLE_ENTITY,
-            "vary-syntax",
-            format!("--vary {text} is no name with values"),
-            "write NAME=FROM:TO:COUNT, NAME=uniform:FROM:TO or NAME=normal:MEAN:DEVIATION, like /bodies/0/mass=1:2:11",
-        )
-    })?;
-    Ok(Variation::new(scene, name, values).map_err(EngineError::from)?)
 }
 
 /// The column that is drawn: asked before anything runs, which may take hours.
@@ -282,45 +274,6 @@ fn told(run: &SweepRun) -> Value {
     told
 }
 
-/// All runs as CSV: the varied numbers, the time at the end, with its error where an event chose it, the outputs there; of a failed run the
-/// code of its error.
-fn table(found: &Sweep) -> String {
-    let timed = found.runs.iter().any(|run| run.result.as_ref().is_ok_and(|end| end.time_error.is_some()));
-    let mut out = String::from("run");
-    for name in &found.varied {
-        let _ = write!(out, ",{}", quoted(name));
-    }
-    out.push_str(if timed { ",time,time_error" } else { ",time" });
-    for column in &found.columns {
-        let _ = write!(out, ",{}", quoted(&format!("{} [{}]", column.name, column.unit)));
-    }
-    out.push_str(",evaluations,doubts,stopped\n");
-    let mut digits = zmij::Buffer::new();
-    for run in &found.runs {
-        let _ = write!(out, "{}", run.index);
-        let mut number = |x: f64, out: &mut String| {
-            out.push(',');
-            out.push_str(digits.format(x));
-        };
-        run.values.iter().for_each(|x| number(*x, &mut out));
-        match &run.result {
-            Ok(end) => {
-                number(end.time, &mut out);
-                if timed {
-                    number(end.time_error.unwrap_or(0.0), &mut out);
-                }
-                end.outputs.iter().for_each(|x| number(*x, &mut out));
-                let _ = writeln!(out, ",{},{},", end.evaluations, end.doubts);
-            }
-            Err(error) => {
-                let times = 1 + usize::from(timed);
-                let _ = writeln!(out, "{},,,{}", ",".repeat(found.columns.len() + times), error.code());
-            }
-        }
-    }
-    out
-}
-
 /// What came out, for people.
 fn print(scene: &Scene, found: &Sweep, left: usize) {
     let reached: Vec<_> = found.runs.iter().filter_map(|run| run.result.as_ref().ok()).collect();
@@ -345,10 +298,12 @@ fn print(scene: &Scene, found: &Sweep, left: usize) {
     if !reached.is_empty() {
         print_columns(found, &reached);
     }
-    for run in found.runs.iter().filter(|run| run.result.is_err()).take(TOLD) {
-        if let Err(error) = &run.result {
-            print_line(&format!("  run {} with {:?}: {error}", run.index, run.values));
-        }
+    let failures = found.runs.iter().filter_map(|run| Some((run, run.result.as_ref().err()?)));
+    for (run, error) in failures.take(TOLD) {
+        print_line(&format!("  run {} with {:?}: {error}", run.index, run.values));
+    }
+    if failed > TOLD {
+        print_line(&format!("  … and {}; --json tells all", counted(failed - TOLD, "more failed run")));
     }
 }
 

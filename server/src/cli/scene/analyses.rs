@@ -7,6 +7,7 @@ use triad_engine::Scene;
 use triad_engine::analysis::{self, AnalysisError};
 use triad_engine::reactions::report::{Convention, ExpressedIn, MomentReference, Side};
 use triad_engine::run::Simulation;
+use triad_engine::scene::text::short;
 
 use super::numbers::{LEAST, Scale, digits, largest, triple};
 use super::source::Source;
@@ -130,7 +131,7 @@ pub(in crate::cli) fn reactions(
     if json {
         print_json(&Timed { answer: &Judged { report: &report, worth }, seconds: &clock });
     } else {
-        print_line(&format!("{}: reactions at t = {} s", scene.name, report.time));
+        print_line(&format!("{}: reactions at t = {} s", scene.name, short(report.time)));
         Scale::of(&simulation.frame().bodies, &report).print_reactions(&report);
         worth.print();
     }

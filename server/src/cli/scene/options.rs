@@ -28,7 +28,8 @@ pub(in crate::cli) struct Run {
     /// Tell what was left out because nothing depends on it, and what that saved.
     #[arg(long)]
     pub(super) explain: bool,
-    /// Integrator, instead of the scene's: auto, taylor, dop853, dopri5, ode45, radau, rattle.
+    /// Integrator, instead of the scene's: auto, taylor, dop853, dopri5, ode45, radau, rattle; trapezoidal comes with
+    /// the treatment augmented-lagrangian.
     #[arg(long, value_name = "NAME", value_parser = choice::integrator)]
     pub(super) integrator: Option<IntegratorKind>,
     /// What keeps the constraints, instead of the scene's: projection, baumgarte, partitioning, penalty,

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use serde_json::json;
 use triad_engine::VERSION;
 use triad_engine::run::{EventOccurrence, ReactionErrors, Simulation, SkippedItem, Summary};
+use triad_engine::scene::text::short;
 use triad_engine::scene::{IntegratorKind, Scene};
 use triad_lab::verify::Verification;
 
@@ -66,7 +67,8 @@ pub(super) fn report(
         print_json(&document);
         return;
     }
-    print_line(&format!("{}: {} s of {} s", scene.name, summary.time, scene.simulation.duration));
+    let [time, end] = [summary.time, scene.simulation.duration].map(short);
+    print_line(&format!("{}: {time} s of {end} s", scene.name));
     // Without a step that holds the figures would be those of the start.
     if stopped.is_none() || summary.time > 0.0 {
         print_line(&accuracy(&summary, reactions, simulation.system().length));

@@ -18,6 +18,7 @@ use super::table::Table;
 use crate::cli::clock::Clock;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::output::{apart, make_room, unwritable, write};
+use crate::cli::table::TableKind;
 use crate::cli::terminal::{Outcome, TimeBar, progress};
 use crate::motion::Film as RecordedFilm;
 use crate::page::playing;
@@ -254,8 +255,9 @@ impl Outputs {
     fn open(options: &Run, scene: &Scene, simulation: &Simulation) -> Result<Self, Problem> {
         let mut table = None;
         if let Some(path) = &options.out {
+            let kind = TableKind::of(path)?;
             make_room(path)?;
-            table = Some(Table::create(path, simulation)?);
+            table = Some(Table::create(path, kind, simulation)?);
         }
         let shared = simulation.is_redundant();
         let recorded = [options.rrd.as_ref().map(|path| path.display().to_string()), options.rerun.clone()];

@@ -3,7 +3,6 @@
 //! The numbers of rows are computed and written out by as many threads as there are processors, the one that runs among them, and while
 //! it runs: which thread writes a row changes no bit of it.
 
-use std::collections::HashMap;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -11,18 +10,15 @@ use std::sync::Arc;
 
 use arrow_array::{ArrayRef, Float64Array, RecordBatch};
 use arrow_ipc::writer::FileWriter;
-use arrow_schema::{ArrowError, DataType, Field, Schema};
-use axum::http::StatusCode;
+use arrow_schema::{ArrowError, DataType, Field};
 use triad_engine::run::{Column, Moment, Outputs, RowWriter, Simulation, append_row};
 
 use super::in_order::{InOrder, Take, Work};
+use crate::cli::output::is_standard;
+use crate::cli::table::{TableKind, arrow_file, field};
 use crate::problem::Problem;
 use crate::table::{TextTable, all_columns, head};
 
-/// Endings of files that are written as Arrow.
-const ARROW: [&str; 2] = ["arrow", "feather"];
-/// Endings of tables that are not written.
-const OTHERS: [&str; 3] = ["parquet", "xlsx", "mat"];
 /// Most rows of an Arrow file that are written together, and most numbers of them.
 const BATCH: usize = 4096;
 const BATCH_NUMBERS: usize = 1 << 18;
@@ -97,35 +93,28 @@ struct ArrowTable {
 }
 
 impl Table {
-    /// Opens a table (`-` is standard output) and writes its head; the ending of the file chooses its kind.
-    pub(super) fn create(path: &Path, run: &Simulation) -> Result<Self, Problem> {
-        Self::with_threads(std::thread::available_parallelism().map_or(1, usize::from), path, run)
+    /// Opens a table (`-` is standard output) and writes its head.
+    pub(super) fn create(path: &Path, kind: TableKind, run: &Simulation) -> Result<Self, Problem> {
+        Self::with_threads(std::thread::available_parallelism().map_or(1, usize::from), path, kind, run)
     }
 
     /// The same, written by so many threads at most, this one included.
-    fn with_threads(threads: usize, path: &Path, run: &Simulation) -> Result<Self, Problem> {
+    fn with_threads(threads: usize, path: &Path, kind: TableKind, run: &Simulation) -> Result<Self, Problem> {
         let outputs = Outputs::new(run);
         let unwritable =
             |error: &dyn std::fmt::Display| crate::cli::output::unwritable(path, &error.to_string());
-        let ending =
-            path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-        if OTHERS.contains(&ending.as_str()) {
-            return Err(Problem::new(
-                StatusCode::UNPROCESSABLE_ENTITY,
-                "unknown-table",
-                format!("tables are not written as .{ending}"),
-                "give a file that ends in .csv, or in .arrow or .feather for pandas, polars, R and MATLAB",
-            ));
-        }
-        let sink = if path.as_os_str() == "-" {
+        let sink = if is_standard(path) {
             Sink::text(Box::new(std::io::stdout()), run, &outputs).map_err(|error| unwritable(&error))?
         } else {
             let file = File::create(path).map_err(|error| unwritable(&error))?;
-            if ARROW.contains(&ending.as_str()) {
-                let table = ArrowTable::new(file, run, &outputs);
-                Sink::Arrow(table.map_err(|error| unwritable(&error))?)
-            } else {
-                Sink::text(Box::new(file), run, &outputs).map_err(|error| unwritable(&error))?
+            match kind {
+                TableKind::Arrow => {
+                    let table = ArrowTable::new(file, run, &outputs);
+                    Sink::Arrow(table.map_err(|error| unwritable(&error))?)
+                }
+                TableKind::Csv => {
+                    Sink::text(Box::new(file), run, &outputs).map_err(|error| unwritable(&error))?
+                }
             }
         };
         let writer = Writer { rows: RowWriter::new(run, &outputs), as_text: matches!(sink, Sink::Text(_)) };
@@ -180,21 +169,14 @@ impl Sink {
 }
 
 impl ArrowTable {
-    /// Units stand in the metadata of the columns, conventions in that of the table.
+    /// Conventions stand in the metadata of the table.
     fn new(file: File, run: &Simulation, outputs: &Outputs) -> Result<Self, ArrowError> {
-        let field = |column: Column| {
-            let unit = HashMap::from([("unit".to_owned(), column.unit.to_owned())]);
-            Field::new(column.name, DataType::Float64, false).with_metadata(unit)
-        };
-        let fields: Vec<Field> = all_columns(outputs).map(field).collect();
+        let number = |column: Column| field(&column.name, Some(column.unit), DataType::Float64, false);
+        let fields: Vec<Field> = all_columns(outputs).map(number).collect();
         let batch = (BATCH_NUMBERS / fields.len()).clamp(1, BATCH);
         let (width, columns) = (fields.len(), vec![0.0; batch * fields.len()]);
-        let about = HashMap::from([
-            ("triad".to_owned(), head(run)),
-            ("conventions".to_owned(), outputs.conventions().join("\n")),
-        ]);
-        let schema = Schema::new(fields).with_metadata(about);
-        let writer = Box::new(FileWriter::try_new_buffered(file, &schema)?);
+        let about = [("triad", head(&run.model().name)), ("conventions", outputs.conventions().join("\n"))];
+        let writer = Box::new(arrow_file(file, fields, about)?);
         Ok(Self { writer, width, batch, columns, waiting: 0 })
     }
 
@@ -259,7 +241,8 @@ mod tests {
         let written = |ending: &str, threads: usize| {
             let file = folder.path().join(format!("{threads}.{ending}"));
             let mut run = run("spatial-slider-crank");
-            let mut table = Table::with_threads(threads, &file, &run).unwrap();
+            let kind = TableKind::of(&file).unwrap();
+            let mut table = Table::with_threads(threads, &file, kind, &run).unwrap();
             // More pieces than may wait, and a part of one.
             for step in 0..9 * 4 * table.together + 5 {
                 run.advance_to(0.0001 * step as f64).unwrap();
@@ -282,7 +265,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let files = ["a.csv", "a.arrow"].map(|name| folder.path().join(name));
         let mut run = run("spatial-slider-crank");
-        let mut tables = files.each_ref().map(|file| Table::create(file, &run).unwrap());
+        let mut tables =
+            files.each_ref().map(|file| Table::create(file, TableKind::of(file).unwrap(), &run).unwrap());
         let outputs = Outputs::new(&run);
         let mut rows = Vec::new();
         // More than an Arrow file holds together.

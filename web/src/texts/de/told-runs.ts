@@ -130,6 +130,8 @@ export const toldOfRuns: Record<string, string> = {
     "Körper „{body}“: Mit {n} angebrachten Massen hat er {mass} kg, sein Schwerpunkt liegt bei {at}",
   'body "{body}": principal moments {moments} kg m² found along {axes}':
     "Körper „{body}“: Hauptträgheitsmomente {moments} kg m², gefunden längs {axes}",
+  'attached[{index}] of body "{body}": principal moments {moments} kg m² found along {axes}':
+    "attached[{index}] von Körper „{body}“: Hauptträgheitsmomente {moments} kg m², gefunden längs {axes}",
   'body "{body}": directors off by {error} were made orthonormal':
     "Körper „{body}“: Direktoren, die um {error} abwichen, wurden orthonormiert",
   'body "{body}": the quaternion of norm {norm} was normalized':

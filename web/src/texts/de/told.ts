@@ -127,6 +127,12 @@ export const told: Record<string, string> = {
     "Körper „{body}“: Seine Hauptträgheitsmomente {moments} kg m² verletzen die Dreiecksungleichung (keines darf negativ oder größer als die Summe der beiden anderen sein)",
   'body "{body}": its inertia tensor is not symmetric (I[{row}][{column}] differs by {difference} kg m²)':
     "Körper „{body}“: Sein Trägheitstensor ist nicht symmetrisch (I[{row}][{column}] weicht um {difference} kg m² ab)",
+  'attached[{index}] of body "{body}": its mass is {mass} kg, but a mass must be positive':
+    "attached[{index}] von Körper „{body}“: Seine Masse ist {mass} kg, eine Masse muss aber positiv sein",
+  'attached[{index}] of body "{body}": its principal moments of inertia {moments} kg m² break the triangle inequality (each must be at least zero and at most the sum of the other two)':
+    "attached[{index}] von Körper „{body}“: Seine Hauptträgheitsmomente {moments} kg m² verletzen die Dreiecksungleichung (keines darf negativ oder größer als die Summe der beiden anderen sein)",
+  'attached[{index}] of body "{body}": its inertia tensor is not symmetric (I[{row}][{column}] differs by {difference} kg m²)':
+    "attached[{index}] von Körper „{body}“: Sein Trägheitstensor ist nicht symmetrisch (I[{row}][{column}] weicht um {difference} kg m² ab)",
   'body "{body}": {reason}': "Körper „{body}“: {reason}",
   'joint "{joint}": {reason}': "Gelenk „{joint}“: {reason}",
   'driver "{driver}": {reason}': "Antrieb „{driver}“: {reason}",
@@ -256,8 +262,10 @@ export const told: Record<string, string> = {
     "Nimm Projektion als Stabilisierung, mit taylor oder dop853.",
   "Allow more steps, loosen the tolerance, or look for a stiff spring or a fast driver.":
     "Erlaub mehr Schritte, lockere die Toleranz, oder such nach einer steifen Feder oder einem schnellen Antrieb.",
-  "Ask for a time within the run, or reset it first.":
-    "Frag nach einer Zeit innerhalb des Laufs, oder setz ihn erst zurück.",
+  "Ask for a later time, or reset the run first.":
+    "Frag nach einer späteren Zeit, oder setz den Lauf erst zurück.",
+  'Ask for a time within the run: it ends after the "duration" in the scene\'s "simulation", or at an event that stops it.':
+    "Frag nach einer Zeit innerhalb des Laufs: Er endet nach der „duration“ in „simulation“ der Szene oder bei einem Ereignis, das ihn anhält.",
   "Look at the last good state: let the driver ask for less, change lengths, or end the run before.":
     "Sieh dir den letzten guten Zustand an: Lass den Antrieb weniger verlangen, ändere Längen, oder beende den Lauf vorher.",
   "Loosen the tolerance, tenfold at first: the mechanism comes to a singular position, near which rounding is larger than this one allows. Else change lengths, or end the run before.":
