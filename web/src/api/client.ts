@@ -83,6 +83,11 @@ export class ApiError extends Error {
     return this.problem.code === "server-unreachable";
   }
 
+  /** True when the server, or a proxy before it, says nothing of what was asked: asked again, it may. */
+  get away(): boolean {
+    return this.offline || [502, 503, 504].includes(this.problem.status ?? 0);
+  }
+
   get gone(): boolean {
     return this.problem.status === 404 || this.problem.status === 410;
   }
@@ -219,7 +224,7 @@ async function nextState(state: SubmissionState): Promise<SubmissionState> {
     return await call<SubmissionState>("GET", `/submissions/${id(state.id)}?wait=${WAIT}`);
   } catch (error) {
     // What was accepted is kept: a server that is away comes back, or another one answers.
-    if (!(error instanceof ApiError) || !(error.offline || error.problem.status === 503)) throw error;
+    if (!(error instanceof ApiError && error.away)) throw error;
     await new Promise((done) => setTimeout(done, AGAIN_MS));
     return state;
   }

@@ -15,6 +15,7 @@ type Key =
   | "scene-aside"
   | `scene-aside:${string}`
   | `said:${string}`
+  | `why:${string}`
   | `slides:${string}`
   | "place"
   | "voter"

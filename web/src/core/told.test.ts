@@ -38,6 +38,10 @@ describe("what the server says", () => {
       "der Lauf endet bei t = 0.1 s: Seine 2 Schritte sind verbraucht (nach 2 Schritten; „C“ verliert gleich seinen Halt, von dem 1e-9 übrig ist)",
     );
     expect(german('body "bob": it is a matter of taste')).toBeUndefined();
+    expect(german("this server runs without accounts: its grades are for yourself")).toMatch(
+      /^Dieser Server/,
+    );
+    expect(german("for a class start it with `triad serve --class`")).not.toContain("`");
     expect(german("x".repeat(5000))).toBeUndefined();
   });
 

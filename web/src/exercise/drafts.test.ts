@@ -50,3 +50,26 @@ it("nothing is saved until all fields are made", () => {
   store.save([{ id: "period", draft: () => [""], hints: () => 0 }]);
   expect(store.of("period")).toEqual({ draft: ["2"], hints: 2 });
 });
+
+it("what was typed before a name was given goes on under it, where that one has nothing yet, and under no second name", () => {
+  const of = (seed: string): DraftStore =>
+    new DraftStore({ slug: "spin", has_variants: true, seed } as Lesson);
+  const type = (seed: string, typed: Record<string, string>): void => {
+    const store = of(seed);
+    const text = { period: "", force: "" };
+    const fields = (["period", "force"] as const).map((id) => ({
+      id,
+      draft: () => [text[id]],
+      hints: () => (id === "force" ? 1 : 0),
+    }));
+    store.begin(fields);
+    Object.assign(text, typed);
+    store.save(fields);
+  };
+  type("Cyd", { period: "2.1" });
+  type("", { period: "9", force: "29.43" });
+  expect(of("Cyd").of("period").draft).toEqual(["2.1"]);
+  expect(of("Cyd").of("force")).toEqual({ draft: ["29.43"], hints: 1 });
+  expect(of("Dan").of("force").draft).toBeUndefined();
+  expect(of("").of("force").draft).toBeUndefined();
+});

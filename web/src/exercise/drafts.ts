@@ -13,10 +13,12 @@ export class DraftStore {
   private readonly key: Key;
   private values: Record<string, string[]>;
 
-  constructor(private readonly lesson: Lesson) {
+  constructor(lesson: Lesson) {
     // Answers belong to the numbers that they are about.
-    this.key = lesson.has_variants && lesson.seed ? keyOf(lesson, lesson.seed) : `draft:${lesson.slug}`;
+    const nameless: Key = `draft:${lesson.slug}`;
+    this.key = lesson.has_variants && lesson.seed ? `${nameless}:${lesson.seed}` : nameless;
     this.values = parse(recall(this.key));
+    if (this.key !== nameless) this.takeOver(nameless);
   }
 
   /** What was typed into a question, and how many of its hints were open. */
@@ -43,11 +45,17 @@ export class DraftStore {
     remember(this.key, JSON.stringify(this.values));
   }
 
-  /** A draft that was begun before the name was known goes on under the name. */
-  copyTo(student: string): void {
-    const key = keyOf(this.lesson, student);
-    const draft = recall(this.key);
-    if (draft && !recall(key)) remember(key, draft);
+  /** What was typed before a name was given, wherever that was, goes on under the name where that one has nothing yet; once, as the next
+   * name is somebody else's. */
+  private takeOver(nameless: Key): void {
+    const before = parse(recall(nameless));
+    const filled = ([, draft]: [string, string[]]): boolean => draft.some((part) => part !== "");
+    const own = Object.entries(this.values).filter(filled);
+    const left = Object.entries(before).filter(filled);
+    if (left.length === 0) return;
+    this.values = { ...this.values, ...Object.fromEntries([...left, ...own]) };
+    remember(this.key, JSON.stringify(this.values));
+    remember(nameless, null);
   }
 
   private hintsOf(question: string): number {
@@ -55,7 +63,6 @@ export class DraftStore {
   }
 }
 
-const keyOf = (lesson: Lesson, seed: string): Key => `draft:${lesson.slug}:${seed}`;
 const hintsKey = (question: string): string => `${question}#hints`;
 
 function parse(text: string | null): Record<string, string[]> {

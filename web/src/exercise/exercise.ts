@@ -180,9 +180,8 @@ class ExerciseSection {
     this.name.focus();
   }
 
-  /** Loads the lesson again with the numbers of that name; what was typed stays for comparison. */
+  /** Loads the lesson again with the numbers of that name. */
   private changeVariant(who: string): void {
-    this.draft.copyTo(who);
     announce(t("{who}, these are your own numbers now. Look at your answers, then check them.", { who }));
     // The name may be the one that is known already, from another page.
     if (student.get() === who) dispatchEvent(new Event("triad:student"));
@@ -221,7 +220,7 @@ class ExerciseSection {
           before > 0 ? t("Waiting, {before} before you…", { before }) : t("Being graded…");
       });
       this.sent = undefined;
-      await this.showVerdict(verdict);
+      await this.showVerdict(verdict, body.answers);
       this.history.add(verdict);
     } catch (error) {
       this.outcome.replaceChildren(problemNotice(error));
@@ -232,9 +231,9 @@ class ExerciseSection {
     }
   }
 
-  private async showVerdict(verdict: GradedSubmission): Promise<void> {
+  private async showVerdict(verdict: GradedSubmission, sent: Record<string, Answer>): Promise<void> {
     const byId = new Map(verdict.questions.map((question) => [question.id, question]));
-    for (const field of this.fields) field.show(byId.get(field.id));
+    for (const field of this.fields) field.show(byId.get(field.id), sent[field.id] ?? {});
     this.outcome.replaceChildren(verdictSummary(verdict));
     await setMaths(this.form);
     this.outcome.focus({ preventScroll: true });

@@ -7,7 +7,7 @@ import { setMaths } from "../core/maths";
 import { t } from "../core/texts";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
-import type { OwnRun } from "./field";
+import type { Inputs, OwnRun } from "./field";
 import { inputsOf } from "./inputs";
 import { readingLine } from "./reading";
 import { verdictLine } from "./verdict";
@@ -19,7 +19,8 @@ export interface QuestionField {
   draft: () => string[];
   /** How many hints are open. */
   hints: () => number;
-  show: (verdict: QuestionVerdict | undefined) => void;
+  /** Shows a verdict of an answer; beside another answer it stands as that of the earlier one. */
+  show: (verdict: QuestionVerdict | undefined, of: Answer) => void;
 }
 
 /** What was filled in before, and how many hints were opened. */
@@ -44,9 +45,7 @@ export function questionField(
   const context = { slug: lesson.slug, seed: lesson.seed, base, described, named, run };
   const inputs = inputsOf(question, context, before.draft);
   const opened = hints(lesson, question, before.hints, changed);
-  const verdict = h("div", { id: verdictId, class: "verdict-slot" });
-  inputs.root.addEventListener("input", changed);
-  inputs.root.addEventListener("change", changed);
+  const slot = h("div", { id: verdictId, class: "verdict-slot" });
 
   const root = h(
     "fieldset",
@@ -64,8 +63,13 @@ export function questionField(
     // On paper alone.
     h("div", { class: "handout-space", "aria-hidden": "true" }),
     question.hints_available > 0 ? opened.root : null,
-    verdict,
+    slot,
   );
+  const judged = verdictOf(root, slot, inputs);
+  for (const event of ["input", "change"]) {
+    inputs.root.addEventListener(event, changed);
+    inputs.root.addEventListener(event, judged.paint);
+  }
 
   return {
     id: question.id,
@@ -73,22 +77,47 @@ export function questionField(
     answer: inputs.answer,
     draft: inputs.draft,
     hints: opened.shown,
-    show: (result) => {
-      root.classList.remove("is-right", "is-wrong", "is-blank", "is-invalid", "is-waiting", "is-kept");
-      for (const input of root.querySelectorAll("input, textarea, select"))
-        input.removeAttribute("aria-invalid");
-      if (!result) {
-        verdict.replaceChildren();
-        return;
-      }
-      root.classList.add(`is-${result.verdict}`);
-      if (result.verdict === "invalid" || result.verdict === "wrong") {
-        for (const input of root.querySelectorAll("input:not([type=radio], [type=file]), textarea"))
-          input.setAttribute("aria-invalid", "true");
-      }
-      verdict.replaceChildren(verdictLine(result));
-    },
+    show: judged.show,
   };
+}
+
+const MARKS = ["is-right", "is-wrong", "is-blank", "is-invalid", "is-waiting", "is-kept"];
+
+/** The verdict of a question, in its slot and as marks of the whole. */
+function verdictOf(
+  root: HTMLElement,
+  slot: HTMLElement,
+  inputs: Inputs,
+): Pick<QuestionField, "show"> & { paint: () => void } {
+  const earlier = h(
+    "p",
+    { class: "verdict-earlier" },
+    t("This was said of your earlier answer: check again to have the new one judged."),
+  );
+  let shown: { result: QuestionVerdict; line: HTMLElement; of: string } | undefined;
+  const paint = (): void => {
+    root.classList.remove(...MARKS);
+    for (const input of root.querySelectorAll("input, textarea, select"))
+      input.removeAttribute("aria-invalid");
+    if (!shown) {
+      slot.replaceChildren();
+      return;
+    }
+    const stands = JSON.stringify(inputs.answer()) === shown.of;
+    slot.classList.toggle("is-earlier", !stands);
+    slot.replaceChildren(...(stands ? [] : [earlier]), shown.line);
+    if (!stands) return;
+    const { verdict } = shown.result;
+    root.classList.add(`is-${verdict}`);
+    if (verdict === "invalid" || verdict === "wrong")
+      for (const input of root.querySelectorAll("input:not([type=radio], [type=file]), textarea"))
+        input.setAttribute("aria-invalid", "true");
+  };
+  const show: QuestionField["show"] = (result, of) => {
+    shown = result && { result, line: verdictLine(result), of: JSON.stringify(of) };
+    paint();
+  };
+  return { show, paint };
 }
 
 /** Hints one at a time; those that were open before are open again. */

@@ -1,6 +1,7 @@
-import { expect, it } from "vitest";
+import { expect, it, vi } from "vitest";
+import { fakePage, found } from "../testing/page";
 import { state } from "../testing/state";
-import { OF_BODIES, OF_JOINTS, within, worth } from "./accuracy";
+import { OF_BODIES, OF_JOINTS, within, worth, worthLine } from "./accuracy";
 
 const accuracy = { position: 1.2e-10, turn: 3e-11, velocity: 9e-10, angular_velocity: 2e-9, energy: 1e-10 };
 
@@ -22,4 +23,28 @@ it("where nothing is known of the error, that is said", () => {
 
 it("a unit is not parted from its number", () => {
   expect(within({ ...state(1, 0), accuracy }, "velocity", "m/s")).toBe("about 9e−10\u00a0m/s");
+});
+
+it("where rows lose their hold, nothing is known of the error of forces at that moment: the run does estimate it elsewhere", () => {
+  const joint = { joint: "A", force: [-4, 0, 0] };
+  const singular = { ...state(0, 0), accuracy, forces: [joint as never] };
+  expect(worth(singular, OF_JOINTS)).toBe(
+    "At 0.000 s nothing is known of their error: these numbers may be far off.",
+  );
+  expect(worth(singular, OF_BODIES)).toMatch(/^Estimated error/);
+  expect(within(singular, "force", "N")).toBe("unknown here");
+  expect(within({ ...singular, accuracy: null, error_unknown_from: 0.5 }, "force", "N")).toBe(
+    "unknown from 0.500 s",
+  );
+});
+
+it("why nothing is known stands below it, in the notes of the run", () => {
+  fakePage();
+  const line = worthLine(OF_JOINTS);
+  const notes = ["the start is a singular position"];
+  line.show({ ...state(0, 0), accuracy, notes, forces: [{} as never] });
+  expect(found(line.root, "ul").textContent).toBe(notes[0]);
+  line.show({ ...state(1, 0), accuracy: { ...accuracy, force: 1e-9 }, notes, forces: [{} as never] });
+  expect(found(line.root, "ul").textContent).toBe("");
+  vi.unstubAllGlobals();
 });

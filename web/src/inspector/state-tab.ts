@@ -88,11 +88,12 @@ const FIGURES: { label: () => string; about: () => string; of: (state: SessionSt
   },
 ];
 
-/** That a state is not of the moment that the picture shows: between two states the positions of bodies alone are recorded. */
+/** That a state is not what the picture shows, an analysis or another moment: between two states the positions of bodies alone are recorded. */
 export function between(
   state: SessionState,
-  { time, reviewing, moving }: { time: number; reviewing: boolean; moving: boolean },
+  { time, reviewing, moving, pose }: { time: number; reviewing: boolean; moving: boolean; pose?: unknown },
 ): string {
+  if (pose) return t("The picture shows the result of an analysis, not the run.");
   return !reviewing || moving || state.time === time
     ? ""
     : t(

@@ -7,6 +7,7 @@ import { t } from "../core/texts";
 import { Session } from "../session/session";
 import { applyView } from "../session/share";
 import { parseView } from "../session/shared-view";
+import { type AnalysisView, analysisIn } from "./analysis-view";
 
 export class Follower extends Session {
   override readonly controls = false;
@@ -29,6 +30,11 @@ export class Follower extends Session {
     super({ builtin: "" });
     // A stream that was opened anew has to be told again.
     this.on("opened", () => this.tell());
+  }
+
+  /** The presenter looks at the result of an analysis, not at the run. */
+  get analysis(): AnalysisView | undefined {
+    return analysisIn(this.lecture?.view, this.latest?.bodies.length ?? 0);
   }
 
   raise(hand: boolean): void {
@@ -103,6 +109,7 @@ export class Follower extends Session {
       this.toNewest();
       this.emit("shown");
     }
+    this.setPose(this.analysis?.pose);
   }
 
   override seek(time: number): void {

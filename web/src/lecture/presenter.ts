@@ -10,6 +10,7 @@ import type { Session } from "../session/session";
 import type { SharedView } from "../session/shared-view";
 import { icon } from "../ui/icons";
 import { problemNotice } from "../ui/notice";
+import { viewOfPose } from "./analysis-view";
 import { Desk } from "./desk";
 import { histogram } from "./histogram";
 import { invite } from "./invite";
@@ -277,7 +278,8 @@ export class PresenterPanel {
       this.sendTimer = 0;
       const id = this.session.latest?.id;
       const blank = this.slides?.blanked ?? false;
-      const view = { ...this.hooks.seen(), back: this.session.reviewing, blank };
+      const { reviewing: back, pose } = this.session;
+      const view = { ...this.hooks.seen(), back, blank, ...viewOfPose(pose) };
       // While time runs, followers have it from the run itself.
       if (!this.session.reviewing) delete view.time;
       const text = JSON.stringify(view);

@@ -11,6 +11,24 @@ export interface ModeMotion {
   rotation_later: Vec3;
 }
 
+/** Where an analysis found the bodies; with a shape they swing in that mode, by so much. */
+export interface Pose {
+  bodies: Placed[];
+  shape?: ModeMotion[];
+  size?: number;
+}
+
+/** Period at which a mode is shown, s: slow enough for the eye, whatever its frequency. */
+const SHOWN_PERIOD = 2;
+
+/** The state with its bodies as a pose has them at a moment of the wall clock, ms; `still` where nothing may move by itself. */
+export function posed(state: SessionState, pose: Pose, now: number, still: boolean): SessionState {
+  const { bodies, shape, size = 0 } = pose;
+  if (!shape) return placed(state, bodies);
+  const phase = still ? 0 : ((now / 1000 / SHOWN_PERIOD) % 1) * 2 * Math.PI;
+  return placed(state, swung(bodies, shape, phase, size));
+}
+
 /** A vector turned by a rotation vector. */
 export function turned(a: Vec3, rotation: Vec3): Vec3 {
   const angle = norm(rotation);

@@ -7,6 +7,7 @@ import { navigate, type Page, setTitle } from "../core/router";
 import { parts, t } from "../core/texts";
 import { Follower } from "../lecture/follower";
 import { writtenRoom } from "../lecture/room-name";
+import { changedLine, statusOf } from "../lecture/standing";
 import { voice } from "../lecture/voice";
 import { ballot } from "../lecture/voter";
 import { linkTo } from "../session/shared-view";
@@ -144,6 +145,7 @@ class LecturePage {
     follower.panel = made.selectPanel;
     const own = voice(follower);
     this.votes.root.after(own.root);
+    this.status.after(changedLine(follower));
     const paint = (): void => {
       this.paint(follower);
       own.paint();
@@ -184,13 +186,6 @@ class LecturePage {
 /** Whether a room has its name, and no lecture yet. */
 const notBegun = (error: unknown): boolean =>
   error instanceof ApiError && error.problem.code === "room-not-open";
-
-function statusOf({ lecture, over, roaming }: Follower): string {
-  if (over) return t("The lecture is over. What was shown can still be looked at here.");
-  if (!lecture?.source) return t("The presenter shows nothing at the moment.");
-  if (roaming) return t("You look around on your own; the lecture goes on.");
-  return t("You see what the presenter shows.");
-}
 
 /** Where a follower runs the same scene alone, with the presenter's numbers. */
 async function ownLink(follower: Follower): Promise<string | undefined> {

@@ -12,6 +12,7 @@ import { Follower } from "../lecture/follower";
 import { histogram } from "../lecture/histogram";
 import { writtenRoom } from "../lecture/room-name";
 import { type ScreenKey, screenKeys } from "../lecture/screen-keys";
+import { analysisTold, changedLine } from "../lecture/standing";
 import { Stage } from "../stage/stage";
 import { problemNotice } from "../ui/notice";
 
@@ -25,6 +26,8 @@ class Screen {
   readonly root: HTMLElement;
   private readonly title = h("h1", null);
   private readonly clock = h("p", { class: "screen-clock" });
+  /** That the presenter looks at an analysis. */
+  private readonly analysis = h("p", { role: "status" });
   private readonly asked = h("section", { class: "screen-asked", hidden: true, "aria-live": "polite" });
   private readonly curtain = h("div", { class: "curtain", hidden: true });
   private readonly follower: Follower;
@@ -48,6 +51,7 @@ class Screen {
         this.clock,
         h("p", { class: "screen-room" }, `${room.host}${room.pathname}`, " ", h("b", null, code)),
       ),
+      h("div", { class: "screen-told" }, this.analysis, changedLine(this.follower)),
       this.stage.root,
       this.asked,
       this.curtain,
@@ -87,12 +91,14 @@ class Screen {
   }
 
   private tick(): void {
-    const { time, latest } = this.follower;
-    setText(this.clock, latest ? `${time.toFixed(2)} s` : "");
+    const { time, latest, pose } = this.follower;
+    // An analysis is of no moment of the run.
+    setText(this.clock, latest && !pose ? `${time.toFixed(2)} s` : "");
   }
 
   private paint(): void {
-    const { lecture, over } = this.follower;
+    const { lecture, over, analysis } = this.follower;
+    setText(this.analysis, analysis && !over ? analysisTold(analysis.pose !== undefined) : "");
     setText(this.title, over ? t("The lecture is over.") : (lecture?.title ?? t("Lecture")));
     if (lecture?.title) setTitle(lecture.title);
     this.curtain.hidden = over || (lecture?.view as { blank?: unknown } | null)?.blank !== true;

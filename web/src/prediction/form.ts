@@ -2,7 +2,7 @@
 
 import type { Prediction } from "../api/types";
 import { authored, h, uid } from "../core/dom";
-import { student } from "../core/prefs";
+import { recall, remember, student } from "../core/prefs";
 import { t } from "../core/texts";
 import { problemNotice } from "../ui/notice";
 
@@ -38,10 +38,14 @@ export class PredictionForm {
   private readonly skip = h("button", { type: "button", class: "button quiet" }, t("Skip, and say so"));
   private readonly trouble = h("div", { role: "status" });
 
+  /** `draft` is where the words of the reason are kept until they are given: a name or another language makes the form anew. */
   constructor(
     asked: Prediction,
+    private readonly draft: `why:${string}`,
     private readonly give: (said: Said) => Promise<void>,
   ) {
+    this.why.value = recall(draft) ?? "";
+    this.why.addEventListener("input", () => remember(draft, this.why.value || null));
     this.buttons = asked.options.map((option) => {
       const button = authored(
         h("button", { type: "button", class: "button choice", "aria-pressed": "false" }),
@@ -101,6 +105,7 @@ export class PredictionForm {
     this.keep.disabled = true;
     try {
       await this.give({ name, choice, why: this.why.value.trim() });
+      remember(this.draft, null);
     } catch (error) {
       this.trouble.replaceChildren(problemNotice(error));
       this.skip.disabled = false;

@@ -3,6 +3,7 @@
 
 import { api } from "../api/client";
 import { inClass, me, teaches } from "../api/identity";
+import { tidy } from "../api/numbers";
 import type { GivenPrediction, Lesson, Prediction } from "../api/types";
 import { announce, authored, h } from "../core/dom";
 import { seconds } from "../core/format";
@@ -32,6 +33,8 @@ export class PredictionPanel implements Asked {
   /** Skipped by somebody without a name: kept by nobody, and asked again in another visit. */
   private readonly passed = new Set<string>();
   private form: PredictionForm | undefined;
+  /** The predictions that the run was about when all was painted. */
+  private painted = "";
   private readonly undo: (() => void)[] = [];
   /** Another name: what that one has predicted. */
   private readonly renamed = (): void => void this.load();
@@ -51,7 +54,11 @@ export class PredictionPanel implements Asked {
       return;
     }
     session.hold(() => this.ask());
-    this.undo.push(session.on("shown", () => this.reveal()));
+    this.undo.push(
+      session.on("shown", () => this.reveal()),
+      // Which run it is changes with its numbers.
+      session.on("scene", () => this.reveal()),
+    );
     void this.load();
   }
 
@@ -90,7 +97,12 @@ export class PredictionPanel implements Asked {
 
   private paint(): void {
     const { missing } = this;
-    this.form = missing && new PredictionForm(missing, (given) => this.give(missing, given));
+    this.form =
+      missing &&
+      new PredictionForm(missing, `why:${this.lesson.slug}:${missing.id}`, (given) =>
+        this.give(missing, given),
+      );
+    this.painted = this.runs;
     this.root.replaceChildren(
       ...[...this.kept.values()].map((one) => this.result(one)).filter((part) => part !== null),
       ...(this.form ? [this.form.root] : []),
@@ -125,13 +137,35 @@ export class PredictionPanel implements Asked {
     if (name) setStudent(name);
   }
 
-  /** Shows what happened as soon as the run has shown it. */
+  /** Whether the run is the one that was asked about: with the author's numbers and those of the prediction, from its start. */
+  private runsAs(asked: Prediction): boolean {
+    const { session } = this;
+    if (!session || session.altered) return false;
+    const { values, places } = session.numbers;
+    const set = { values: asked.with ?? {}, places: {} };
+    const wanted = (session.view ? tidy(set, session.view) : set).values;
+    const names = new Set([...Object.keys(values), ...Object.keys(wanted)]);
+    return Object.keys(places).length === 0 && [...names].every((name) => values[name] === wanted[name]);
+  }
+
+  /** The predictions that the run is about. */
+  private get runs(): string {
+    return this.lesson.predictions
+      .filter((one) => this.runsAs(one))
+      .map(({ id }) => id)
+      .join();
+  }
+
+  /** Shows what happened as soon as the run that was asked about has shown it. */
   private reveal(): void {
     const state = this.session?.latest;
     if (!state || this.missing) return;
+    if (this.runs !== this.painted) this.paint();
     const seen = this.lesson.predictions.filter(
       (one) =>
-        !this.revealed.has(one.id) && (state.finished || (state.time > 0 && state.time >= one.seen_at)),
+        !this.revealed.has(one.id) &&
+        (state.finished || (state.time > 0 && state.time >= one.seen_at)) &&
+        this.runsAs(one),
     );
     if (seen.length === 0) return;
     for (const one of seen) this.revealed.add(one.id);
@@ -151,19 +185,29 @@ export class PredictionPanel implements Asked {
       ? h("p", null, h("b", null, t("You predicted:"), " "), option(kept.choice))
       : h("p", null, h("b", null, t("You skipped the prediction.")));
     const shown = this.revealed.has(asked.id);
+    const same = this.runsAs(asked);
+    const happened = same ? t("What happened:") : t("What happened in the run that was asked about:");
     return h(
       "div",
       { class: "prediction-result", tabindex: "-1" },
       authored(h("div", { class: "prediction-asked" }), asked.html),
       own,
       kept.why ? h("p", { class: "prediction-why" }, `“${kept.why}”`) : null,
-      shown ? h("p", null, h("b", null, t("What happened:"), " "), option(kept.outcome.happens)) : null,
+      shown ? h("p", null, h("b", null, happened, " "), option(kept.outcome.happens)) : null,
       shown
         ? authored(h("div", { class: "prediction-shows" }), kept.outcome.html)
-        : h("p", { class: "help" }, waitsFor(asked)),
+        : h("p", { class: "help" }, same ? waitsFor(asked) : waitsForOther(asked)),
     );
   }
 }
+
+/** This run has other numbers than the one that was asked about. */
+const waitsForOther = ({ with: values }: Prediction): string =>
+  Object.keys(values ?? {}).length > 0
+    ? t(
+        "This run is not the one that was asked about: set the numbers of the question and run it from the start.",
+      )
+    : t("This run is not the one that was asked about: run it from the start as its author wrote it.");
 
 function waitsFor(asked: Prediction): string {
   return asked.seen_at > 0

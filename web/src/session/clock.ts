@@ -4,6 +4,7 @@ import type { SessionState } from "../api/types";
 import { announce } from "../core/dom";
 import { num, seconds } from "../core/format";
 import { t } from "../core/texts";
+import type { Pose } from "../mechanics/pose";
 import { Emitter, type Traced } from "./events";
 import type { Ghost } from "./ghost";
 import { History } from "./history";
@@ -24,8 +25,8 @@ export class Clock extends Emitter {
   speed = 1;
   /** A replay that has come to its end begins again. */
   loop = false;
-  /** What is shown instead of the run: the result of an analysis, at a moment of the wall clock in ms. */
-  pose: ((now: number) => SessionState) | undefined;
+  /** What is shown instead of the run, until that is looked at again: the result of an analysis. */
+  pose: Pose | undefined;
   /** The points that leave traces. */
   traced: Traced = "none";
   /** Another run that is seen behind this one. */
@@ -88,9 +89,10 @@ export class Clock extends Emitter {
     return this.track.at(time, state) ?? this.past.between(time);
   }
 
-  /** Looks at an earlier time without computing anything again. */
+  /** Looks at an earlier time without computing anything again: the run is what is shown then, no analysis. */
   seek(time: number): void {
     this.endReplay();
+    this.pose = undefined;
     const newest = this.latest?.time ?? 0;
     this.cursor = time >= newest ? null : Math.max(0, time);
     this.emit("shown");
@@ -184,7 +186,7 @@ export class Clock extends Emitter {
     return { past: this.past.copy(), track: this.track.copy() };
   }
 
-  setPose(pose: Clock["pose"]): void {
+  setPose(pose: Pose | undefined): void {
     if (this.pose === pose) return;
     this.pose = pose;
     this.emit("shown");

@@ -193,3 +193,50 @@ test("a time to run to is not forgotten before the run is there, nor is what is 
     'POST /api/v1/sessions/BB-2/step {"seconds":2}',
   ]);
 });
+
+test("a step, a reset and the time line show the run again, not the analysis over it", async () => {
+  answering((request, body) => {
+    if (request.endsWith("POST /api/v1/sessions")) return [201, state("AA-1", 0)];
+    return [200, state("AA-1", (body as { seconds?: number } | null)?.seconds ?? 0)];
+  });
+  const session = new Session({ builtin: "simple-pendulum" });
+  await session.start();
+  await session.step({ seconds: 2 });
+  const ways = {
+    step: () => session.step({ seconds: 1 }),
+    seek: () => session.seek(0.5),
+    goTo: () => session.goTo(0.2),
+    play: () => session.play(),
+    reset: () => session.reset(),
+  };
+  for (const [name, way] of Object.entries(ways)) {
+    session.setPose({ bodies: [] });
+    await way();
+    expect(session.pose, name).toBeUndefined();
+  }
+});
+
+test("an undo that the server did not answer is not used up", async () => {
+  let there = true;
+  const parameters = [{ name: "g", initial: 9.81, value: 9.81 }];
+  answering((request) => {
+    if (!there) throw new TypeError("Failed to fetch");
+    if (request.endsWith("POST /api/v1/sessions")) return [201, state("AA-1", 0)];
+    if (request.includes("scene")) return [200, { parameters, scene: {}, original: {} }];
+    return [200, state("AA-1", 0)];
+  });
+  const session = new Session({ builtin: "simple-pendulum" });
+  await session.start();
+  await settled();
+  for (const g of [4, 6]) await session.change({ values: { g }, places: {} });
+  there = false;
+  await expect(session.undo()).rejects.toThrow();
+  await expect(Promise.all([session.undo(), session.undo()])).rejects.toThrow();
+  expect(session.canUndo).toBe(true);
+  there = true;
+  await session.undo();
+  expect(session.numbers.values).toEqual({ g: 4 });
+  await Promise.all([session.undo(), session.undo()]);
+  expect(session.numbers.values).toEqual({});
+  expect(session.canUndo).toBe(false);
+});

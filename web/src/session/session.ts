@@ -16,6 +16,8 @@ import { type Kind, Presses } from "./presses";
 export class Session extends Clock {
   /** Name of the selected joint. */
   joint: string | null = null;
+  /** Key of the plot that was chosen; none until one is. */
+  plot: string | undefined;
   /** The convention for reactions: on which body, about which point, in which frame. */
   convention: ReactionConvention = { on: "j", about: "joint", in: "world" };
   /** Which forces are drawn. */
@@ -139,28 +141,40 @@ export class Session extends Clock {
   /** Runs the scene with these deviations from what its author wrote. Throws what the server refuses. */
   async change(to: Numbers, then?: AfterChange): Promise<void> {
     const from = this.numbers;
-    if (await this.put(to, then)) this.before.push(from);
+    if (await this.put(() => to, then)) this.before.push(from);
     await this.readScene();
   }
 
   async undo(): Promise<void> {
-    const to = this.before.pop();
-    if (!to) return;
-    await this.put(to);
+    // In its turn: the one before may have been undone meanwhile.
+    await this.put(
+      () => this.before.at(-1),
+      undefined,
+      () => this.before.pop(),
+    );
     await this.readScene();
   }
 
-  private async put(to: Numbers, then?: AfterChange): Promise<boolean> {
+  /** Asks for numbers in their turn; `done` when the run has them, which a server that does not answer leaves open. */
+  private async put(
+    wanted: () => Numbers | undefined,
+    then?: AfterChange,
+    done?: () => void,
+  ): Promise<boolean> {
     const view = this.view;
     const run = this.address;
     if (!view || !run) return false;
     let sent = none();
     await this.presses.add("change", async () => {
+      const to = wanted();
+      if (!to) return;
       sent = between(this.numbers, to, view);
-      if (isNone(sent)) return;
-      this.changed(await api.change(run, sent, then));
-      this.numbers = tidy(to, view);
-      this.altered = (this.latest?.time ?? 0) > 0;
+      if (!isNone(sent)) {
+        this.changed(await api.change(run, sent, then));
+        this.numbers = tidy(to, view);
+        this.altered = (this.latest?.time ?? 0) > 0;
+      }
+      done?.();
     });
     return !isNone(sent);
   }
@@ -283,6 +297,7 @@ export class Session extends Clock {
   protected toNewest(): void {
     this.endReplay();
     this.cursor = null;
+    this.setPose(undefined);
   }
 
   override setSpeed(speed: number): void {
@@ -325,6 +340,13 @@ export class Session extends Clock {
     this.drawn = drawn;
     this.emit("view");
     void this.redraw(false);
+  }
+
+  /** Chooses a plot, in every view. */
+  choosePlot(plot: string): void {
+    if (this.plot === plot) return;
+    this.plot = plot;
+    this.emit("view");
   }
 
   /** Another panel of the inspector is looked at. */

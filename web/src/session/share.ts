@@ -87,12 +87,15 @@ export function viewOf({ session, panel, picture, own }: Shared): SharedView {
   };
   if (!isNone(session.numbers)) seen.numbers = session.numbers;
   if (session.joint !== null) seen.joint = session.joint;
+  if (session.plot !== undefined) seen.plot = session.plot;
   if (own) seen.scene = own.text;
   return seen;
 }
 
 /** Brings a session that has just started to what a link shows. */
 export async function restore(session: Session, seen: SharedView): Promise<void> {
+  // What is shown is the run, not an analysis that stands over it.
+  session.setPose(undefined);
   applyView(session, seen);
   if (seen.camera && CAMERAS.includes(seen.camera as Camera) && seen.camera !== session.camera)
     session.lookFrom(seen.camera as Camera);
@@ -115,6 +118,7 @@ export function applyView(session: Session, seen: SharedView): void {
   }
   const drawn = drawnOf(seen.drawn);
   if (drawn) session.draw(drawn);
+  if (seen.plot !== undefined) session.choosePlot(seen.plot);
   session.select(
     seen.joint && session.latest?.forces.some((entry) => entry.joint === seen.joint) ? seen.joint : null,
   );

@@ -14,6 +14,8 @@ export interface SharedView {
   plays?: boolean;
   joint?: string;
   panel?: string;
+  /** The plot that is chosen, by its key: energy drift, a body's velocity, a joint's force. */
+  plot?: string;
   picture?: "drawing" | "viewer";
   /** From where the mechanism is looked at. */
   camera?: string;
@@ -75,7 +77,7 @@ export function parseView(value: unknown): SharedView | undefined {
   if (typeof value !== "object" || value === null || Array.isArray(value)) return undefined;
   const given = value as Record<string, unknown>;
   const seen: SharedView = {};
-  for (const key of ["joint", "panel", "drawn", "told", "scene", "camera"] as const)
+  for (const key of ["joint", "panel", "plot", "drawn", "told", "scene", "camera"] as const)
     if (typeof given[key] === "string") seen[key] = given[key];
   if (given.back === true) seen.back = true;
   if (given.plays === true) seen.plays = true;

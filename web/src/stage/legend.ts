@@ -7,7 +7,8 @@ import { arrows, roundDown } from "../mechanics/forces";
 import { norm } from "../mechanics/vec";
 import type { Session } from "../session/session";
 
-export function legend(session: Session): { root: HTMLElement; update: () => void } {
+/** It follows the session by itself, also while the picture shows no moment of the run and has no forces to tell. */
+export function legend(session: Session): { root: HTMLElement; dispose: () => void } {
   const scale = h("span");
   const selected = h("b", { class: "stage-selected" });
   const root = h("p", { class: "stage-legend", hidden: true }, selected, scale);
@@ -44,5 +45,12 @@ export function legend(session: Session): { root: HTMLElement; update: () => voi
         : "",
     );
   };
-  return { root, update };
+  const undo = (["shown", "view", "selected", "scene"] as const).map((event) => session.on(event, update));
+  update();
+  return {
+    root,
+    dispose: () => {
+      for (const step of undo) step();
+    },
+  };
 }

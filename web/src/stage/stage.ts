@@ -6,6 +6,7 @@ import { seconds } from "../core/format";
 import { recall, reducedMotion, remember } from "../core/prefs";
 import { t } from "../core/texts";
 import { onPrint, onTheme } from "../core/theme";
+import { posed } from "../mechanics/pose";
 import type { Session } from "../session/session";
 import { icon } from "../ui/icons";
 import { cameras } from "./cameras";
@@ -43,7 +44,6 @@ export class Stage {
   private readonly printed = h("figure", { class: "stage-printed" });
   private readonly loading = new Loading();
   readonly drawing: Drawing;
-  private readonly legend: ReturnType<typeof legend>;
   private readonly undo: (() => void)[];
 
   private viewer: ViewerHandle | undefined;
@@ -79,21 +79,21 @@ export class Stage {
     hands(session, this.drawing);
     const tools = toolbar(session, this.drawing, () => this.root);
     const views = cameras(session);
-    this.legend = legend(session);
+    const scale = legend(session);
     this.toggle = h("span", { class: "row tight" }, views.root, this.button);
     this.root = h(
       "div",
       { class: "stage" },
       this.drawing.root,
       this.host,
-      this.legend.root,
+      scale.root,
       tools.root,
       this.behind,
       this.loading.root,
       this.printed,
     );
     this.button.addEventListener("click", () => this.change());
-    this.undo = [...this.listen(), tools.dispose, views.dispose, () => this.drawing.dispose()];
+    this.undo = [...this.listen(), scale.dispose, tools.dispose, views.dispose, () => this.drawing.dispose()];
     this.paint();
   }
 
@@ -217,7 +217,6 @@ export class Stage {
       if (!this.posing && !reducedMotion()) this.animatePose();
       return;
     }
-    this.legend.update();
     const time = session.smoothTime;
     const state = session.moment(time) ?? session.shown;
     if (!state) return;
@@ -258,11 +257,11 @@ export class Stage {
 
   /** Draws the result of an analysis, also where the viewer is open: that one shows the run. */
   private drawPose(): boolean {
-    const { pose } = this.session;
+    const { pose, latest } = this.session;
     this.root.classList.toggle("is-posed", pose !== undefined);
     this.root.dataset.posed = t("result of an analysis");
-    if (!pose) return false;
-    this.drawing.update(pose(performance.now()));
+    if (!pose || !latest) return false;
+    this.drawing.update(posed(latest, pose, performance.now(), reducedMotion()));
     return true;
   }
 

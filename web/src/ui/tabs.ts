@@ -18,6 +18,8 @@ export function tabs(label: string, list: Tab[], start: string | null, changed: 
   const buttons = new Map<string, HTMLButtonElement>();
 
   const select = (key: string): void => {
+    // Somebody else may look at a tab that is not offered here: what is open stays.
+    if (!buttons.has(key)) return;
     current = key;
     for (const tab of list) {
       const on = tab.key === key;

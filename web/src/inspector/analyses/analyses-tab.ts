@@ -3,9 +3,8 @@
 import { api } from "../../api/client";
 import type { ModesAbout } from "../../api/types";
 import { announce, h, uid } from "../../core/dom";
-import { reducedMotion } from "../../core/prefs";
 import { t } from "../../core/texts";
-import { type Placed, placed, swung, visible } from "../../mechanics/pose";
+import { type Placed, type Pose, visible } from "../../mechanics/pose";
 import type { Session } from "../../session/session";
 import { note, problemNotice } from "../../ui/notice";
 import type { Panel } from "../../ui/panel";
@@ -21,9 +20,6 @@ import {
   type ModesResult,
   modesView,
 } from "./results";
-
-/** Period at which a mode is shown, s: slow enough for the eye, whatever its frequency. */
-const SHOWN_PERIOD = 2;
 
 /** What vibrations are about. */
 const ABOUT: Record<ModesAbout, () => string> = {
@@ -43,7 +39,7 @@ export class AnalysesTab implements Panel {
   });
   private readonly back = h(
     "button",
-    { type: "button", class: "button small", hidden: true, onclick: () => this.pose(undefined) },
+    { type: "button", class: "button small", hidden: true, onclick: () => this.session.setPose(undefined) },
     t("Back to the run"),
   );
 
@@ -93,8 +89,12 @@ export class AnalysesTab implements Panel {
       this.result,
     );
     session.on("scene", () => {
-      this.pose(undefined);
+      session.setPose(undefined);
       this.dropOld();
+    });
+    // Whatever shows the run again takes the pose away: a step, the time line, another moment.
+    session.on("shown", () => {
+      this.back.hidden = session.pose === undefined;
     });
   }
 
@@ -147,7 +147,7 @@ export class AnalysesTab implements Panel {
     const { asked, session } = this;
     if (!asked || JSON.stringify(session.view?.scene) === asked.scene) return;
     this.asked = undefined;
-    this.pose(undefined);
+    session.setPose(undefined);
     this.result.replaceChildren(
       h("h3", null, asked.label),
       note(
@@ -165,17 +165,16 @@ export class AnalysesTab implements Panel {
     );
   }
 
-  /** Shows a pose of the bodies in place of the run; undefined shows the run again. */
-  private pose(pose: Session["pose"]): void {
-    if (pose && this.session.latest?.playing) void this.session.pause();
-    this.session.setPose(pose);
-    this.back.hidden = !pose;
+  /** Shows a pose of the bodies in place of the run, which stands still meanwhile. */
+  private pose(pose: Pose): void {
+    const { session } = this;
+    if (session.latest?.playing || session.replaying) void session.pause();
+    session.setPose(pose);
   }
 
   private equilibrium(found: EquilibriumResult): HTMLElement[] {
-    const state = this.session.latest;
-    if (state) this.pose(() => placed(state, found.bodies));
-    return equilibriumView(found, state?.bodies.map((body) => body.name) ?? []);
+    this.pose({ bodies: found.bodies });
+    return equilibriumView(found, this.session.latest?.bodies.map((body) => body.name) ?? []);
   }
 
   private async vibrations(scene: unknown): Promise<HTMLElement[]> {
@@ -186,11 +185,6 @@ export class AnalysesTab implements Panel {
 
   private swing(bodies: Placed[], mode: Mode): void {
     const state = this.session.latest;
-    if (!state) return;
-    const size = visible(state);
-    this.pose((now) => {
-      const phase = reducedMotion() ? 0 : ((now / 1000 / SHOWN_PERIOD) % 1) * 2 * Math.PI;
-      return placed(state, swung(bodies, mode.shape, phase, size));
-    });
+    if (state) this.pose({ bodies, shape: mode.shape, size: visible(state) });
   }
 }

@@ -13,6 +13,17 @@ import { ExpertPanel } from "./expert-panel";
 import { ParameterRow } from "./parameter-row";
 import { PullPanel } from "./pull-panel";
 
+/** Pause after which a change is sent again that the server did not answer, ms. */
+const AGAIN_MS = 2000;
+
+/** How the run stands to that of the author. */
+export function standing(changed: number, altered: boolean): string {
+  if (changed > 0) return t("{numbers} changed.", { numbers: t("{n} number | {n} numbers", { n: changed }) });
+  return altered
+    ? t("The numbers are the author’s; this run was changed on its way.")
+    : t("As the author wrote it.");
+}
+
 export class ParametersTab implements Panel {
   readonly root: HTMLElement;
   private readonly attempts = new Attempts();
@@ -38,6 +49,9 @@ export class ParametersTab implements Panel {
   /** The change to be sent next. */
   private wanted: { to: Numbers; then?: AfterChange | undefined } | undefined;
   private sending = false;
+  /** The change that the server did not answer: it is sent again when that is back. */
+  private unsent: { to: Numbers; then?: AfterChange | undefined } | undefined;
+  private timer = 0;
 
   constructor(private readonly session: Session) {
     this.expert = new ExpertPanel(session, (pointer, value, then) => {
@@ -54,6 +68,10 @@ export class ParametersTab implements Panel {
       this.pull.root,
       this.expert.root,
     );
+    session.on("opened", () => {
+      if (this.unsent) this.again();
+      else this.attempts.answers();
+    });
     session.on("scene", () => {
       this.paint();
       this.expert.refresh();
@@ -68,14 +86,16 @@ export class ParametersTab implements Panel {
     this.pull.refresh();
   }
 
+  /** Goes back: what waits for the server is given up. */
   private async attempt(change: () => Promise<void>): Promise<void> {
+    this.unsent = undefined;
     await this.attempts.run(change);
     this.paint();
   }
 
   /** What a further change starts from: the one that waits, if there is one. */
   private base(): Numbers {
-    return this.wanted?.to ?? this.session.numbers;
+    return (this.wanted ?? this.unsent)?.to ?? this.session.numbers;
   }
 
   private setValue(name: string, value: number): void {
@@ -89,13 +109,22 @@ export class ParametersTab implements Panel {
     if (!this.sending) void this.send();
   }
 
+  /** Sends once more what the server did not answer, as long as the page is there. */
+  private again(): void {
+    const { unsent } = this;
+    if (unsent && this.root.isConnected) this.change(unsent.to, unsent.then);
+  }
+
   private async send(): Promise<void> {
     this.sending = true;
     while (this.wanted) {
       const { to, then } = this.wanted;
       this.wanted = undefined;
-      await this.attempt(() => this.session.change(to, then));
+      const answered = await this.attempts.run(() => this.session.change(to, then));
+      this.unsent = answered ? undefined : { to, then };
     }
+    clearTimeout(this.timer);
+    if (this.unsent) this.timer = window.setTimeout(() => this.again(), AGAIN_MS);
     this.sending = false;
     this.paint();
   }
@@ -106,16 +135,12 @@ export class ParametersTab implements Panel {
     const names = view.parameters.map((parameter) => parameter.name);
     if (names.join("|") !== [...this.rows.keys()].join("|") || this.list.childElementCount === 0)
       this.makeRows(view.parameters);
-    if (!this.sending)
+    // What was typed and not sent stays where it was typed.
+    if (!this.sending && !this.unsent)
       for (const parameter of view.parameters)
         this.rows.get(parameter.name)?.show(parameter, parameter.value);
     const changed = count(numbers);
-    setText(
-      this.status,
-      changed === 0
-        ? t("As the author wrote it.")
-        : t("{numbers} changed.", { numbers: t("{n} number | {n} numbers", { n: changed }) }),
-    );
+    setText(this.status, standing(changed, this.session.altered));
     this.undo.disabled = !canUndo;
     this.reset.disabled = changed === 0;
   }

@@ -35,6 +35,14 @@ it("where nothing is known of the error any more, plots and values say so", () =
   const [x] = of("Position of bob").curves;
   expect(x && within(x, lost)).toBe(" ± ?");
   expect(x && within(x, state(9, 1))).toBe("");
+  // Of a force at a singular position, beside quantities whose errors are known.
+  const here = {
+    ...state(0, 1),
+    accuracy: { position: 1e-9 } as never,
+    forces: [{ joint: "A", on: "a" } as never],
+  };
+  const [force] = charts(here).find(({ key }) => key === "joint:A:force")?.curves ?? [];
+  expect(force && within(force, here)).toBe(" ± ?");
   const line = { label: "x", unit: "m", values: [0, 1], color: "red", dash: [] };
   const picture = (from?: number) =>
     plotSvg("x", [0, 9], [line], { ink: "#000", line: "#ccc", paper: "#fff" }, [], from);

@@ -4,6 +4,7 @@ import type { Accuracy, Reactions, SessionState } from "../../api/types";
 import { sci } from "../../core/format";
 import { t } from "../../core/texts";
 import { type Frame, motionIn, reactionIn } from "../../session/track";
+import { unknownFrom } from "../accuracy";
 
 export interface Curve {
   label: string;
@@ -35,6 +36,8 @@ export function markShared(charts: Chart[], { reactions }: Reactions): void {
 
 /** Curves that share one plot. */
 export interface Chart {
+  /** Its name in links and for followers, whatever language they read. */
+  key: string;
   label: string;
   curves: Curve[];
   /** What each curve is drawn over in place of time: a phase plot, or a hodograph. */
@@ -76,7 +79,7 @@ export function lostIn(chart: Chart, state: SessionState): number | undefined {
 export function within(curve: Curve, state: SessionState): string {
   const error = errorOf(curve, state);
   if (error !== undefined) return ` ± ${sci(error, 1)}`;
-  return curve.error && typeof state.error_unknown_from === "number" && !state.accuracy ? " ± ?" : "";
+  return curve.error && unknownFrom(state, curve.error) !== undefined ? " ± ?" : "";
 }
 
 /** The errors of a run that estimates them. */
@@ -90,6 +93,7 @@ function errors(state: SessionState): Chart[] {
   const forces = state.forces.length > 0 ? [of(t("forces"), "N", "force")] : [];
   return [
     {
+      key: "errors",
       label: t("Estimated error"),
       log: true,
       curves: [of(t("positions"), "m", "position"), of(t("velocities"), "m/s", "velocity"), ...forces],
@@ -98,9 +102,9 @@ function errors(state: SessionState): Chart[] {
 }
 
 /** Each quantity of a vector over the next: the way of its tip, seen along the three axes. */
-function hodograph(label: string, curves: Curve[]): Chart {
+function hodograph(key: string, label: string, curves: Curve[]): Chart {
   const [x, y, z] = curves as [Curve, Curve, Curve];
-  return { label, curves: [y, z, z], across: [x, x, y] };
+  return { key, label, curves: [y, z, z], across: [x, x, y] };
 }
 
 /** The quantities of a chart, each once. */
@@ -110,11 +114,13 @@ export const quantities = (chart: Chart): Curve[] => [...new Set([...(chart.acro
 export function charts(state: SessionState): Chart[] {
   return [
     {
+      key: "drift",
       label: t("Energy drift"),
       curves: [{ label: "ΔE", unit: "J", of: (s) => s.energy_drift, error: "energy" }],
     },
     ...errors(state),
     {
+      key: "violation",
       label: t("Constraint violation"),
       log: true,
       curves: [
@@ -139,17 +145,23 @@ function ofBody(name: string, at: number): Chart[] {
     );
   const place = motion("", "m", "position");
   const velocity = motion("v", "m/s", "velocity");
+  const key = (what: string): string => `body:${name}:${what}`;
   return [
-    { label: t("Acceleration of {name}", { name }), curves: motion("a", "m/s²", "acceleration") },
-    { label: t("Position of {name}", { name }), curves: place },
-    { label: t("Velocity of {name}", { name }), curves: velocity },
     {
+      key: key("acceleration"),
+      label: t("Acceleration of {name}", { name }),
+      curves: motion("a", "m/s²", "acceleration"),
+    },
+    { key: key("position"), label: t("Position of {name}", { name }), curves: place },
+    { key: key("velocity"), label: t("Velocity of {name}", { name }), curves: velocity },
+    {
+      key: key("angular_velocity"),
       label: t("Angular velocity of {name}", { name }),
       curves: motion("ω", "rad/s", "angular_velocity"),
     },
-    { label: t("Phase plot of {name}", { name }), curves: velocity, across: place },
-    hodograph(t("Path of {name}", { name }), place),
-    hodograph(t("Hodograph of the velocity of {name}", { name }), velocity),
+    { key: key("phase"), label: t("Phase plot of {name}", { name }), curves: velocity, across: place },
+    hodograph(key("path"), t("Path of {name}", { name }), place),
+    hodograph(key("hodograph"), t("Hodograph of the velocity of {name}", { name }), velocity),
   ];
 }
 
@@ -163,12 +175,14 @@ function ofJoint(joint: string, on: string, at: number): Chart[] {
       (frame, k) => reactionIn(frame, at, what, k),
     ).map((curve, axis) => ({ ...curve, reaction: { joint, what, axis } }));
   const force = reaction("F", "N", "force");
+  const key = (what: string): string => `joint:${joint}:${what}`;
   return [
-    { label: t("Force in {joint} on {on}", { joint, on }), curves: force },
+    { key: key("force"), label: t("Force in {joint} on {on}", { joint, on }), curves: force },
     {
+      key: key("moment"),
       label: t("Moment in {joint} on {on}", { joint, on }),
       curves: reaction("M", "N m", "moment"),
     },
-    hodograph(t("Hodograph of the force in {joint} on {on}", { joint, on }), force),
+    hodograph(key("hodograph"), t("Hodograph of the force in {joint} on {on}", { joint, on }), force),
   ];
 }

@@ -6,6 +6,7 @@ import { h, saveFile, setText } from "../../core/dom";
 import { num, sci, seconds } from "../../core/format";
 import { t } from "../../core/texts";
 import { onTheme } from "../../core/theme";
+import { type LiveQuery, liveQuery } from "../../session/live-query";
 import type { Session } from "../../session/session";
 import { keptGhost } from "../../stage/ghosts";
 import { empty } from "../../ui/notice";
@@ -42,11 +43,11 @@ export class PlotsTab implements Panel {
     "p",
     { class: "help", hidden: true },
     t(
-      "≈ marks what is not unique: joints whose rows depend on each other may share their load in other ways too.",
+      "≈ marks what is not unique at the time that is shown: joints whose rows depend on each other may share their load in other ways too.",
     ),
   );
-  /** The run whose reactions were asked for, to know which are unique. */
-  private askedFor = "";
+  /** Which reactions are unique at the moment that is shown. */
+  private readonly unique: LiveQuery;
   /** The values at the time that is shown. */
   private readonly readout = h("p", { class: "readout" });
   private readonly table = h("details", { class: "as-table" }, h("summary", null, t("The same as a table")));
@@ -87,6 +88,8 @@ export class PlotsTab implements Panel {
   private readonly marks: ExtremeMarks;
   private readonly phase: PhaseView;
   private available: Chart[] = [];
+  /** The choice that is painted. */
+  private chosen: string | undefined;
   /** Names of the bodies that the offered plots are about. */
   private bodies = "";
   private kept: Overlay | undefined;
@@ -99,7 +102,19 @@ export class PlotsTab implements Panel {
     this.marks = new ExtremeMarks(session, () => this.refresh());
     this.phase = new PhaseView(this.canvas, session);
     this.root = this.layout();
-    for (const choice of [this.select, this.mode]) choice.addEventListener("change", () => this.refresh());
+    this.unique = liveQuery(
+      session,
+      (run, at) => api.reactions(run, { ...session.convention, in: "world" }, at),
+      (found) => {
+        markShared(this.available, found);
+        this.refresh();
+      },
+      // Of large scenes nobody knows.
+      () => undefined,
+    );
+    this.select.addEventListener("change", () => session.choosePlot(this.select.value));
+    session.on("view", () => session.plot !== this.chosen && this.refresh());
+    this.mode.addEventListener("change", () => this.refresh());
     this.table.addEventListener("toggle", () => this.refresh());
     this.file.addEventListener("change", () => void this.readReference());
     onTheme(() => requestAnimationFrame(() => this.canvas.isConnected && this.refresh()));
@@ -121,7 +136,7 @@ export class PlotsTab implements Panel {
     const values = quantities(chart).map((curve) => {
       return `${labelOf(curve)} = ${num(curve.of(state), 6)}${within(curve, state)} ${curve.unit}`.trim();
     });
-    this.askWhichAreUnique(chart, state);
+    if (quantities(chart).some((curve) => curve.reaction)) this.unique.refresh();
     this.shared.hidden = !quantities(chart).some((curve) => curve.shared);
     this.readout.textContent = t("At {time}: {values}", {
       time: seconds(state.time),
@@ -189,33 +204,23 @@ export class PlotsTab implements Panel {
   }
 
   private chart(): Chart | undefined {
-    return this.available[Number(this.select.value)] ?? this.available[0];
+    return this.available.find(({ key }) => key === this.session.plot) ?? this.available[0];
   }
 
   /** Offers the plots of a scene; other bodies have others. */
   private offer(state: SessionState): void {
     const bodies = state.bodies.map((body) => body.name).join("|");
-    if (bodies === this.bodies && this.available.length > 0) return;
-    this.bodies = bodies;
-    this.askedFor = "";
-    this.available = charts(state);
-    this.select.replaceChildren(
-      ...this.available.map((entry, at) => h("option", { value: String(at) }, entry.label)),
-    );
-  }
-
-  /** Asks once for a run, and as soon as a reaction is looked at, which reactions are unique; of large scenes nobody knows. */
-  private askWhichAreUnique(chart: Chart, state: SessionState): void {
-    const run = `${state.id}@${state.changes}`;
-    if (run === this.askedFor || !quantities(chart).some((curve) => curve.reaction)) return;
-    this.askedFor = run;
-    api
-      .reactions(state.links.self, { ...this.session.convention, in: "world" })
-      .then((found) => {
-        markShared(this.available, found);
-        this.refresh();
-      })
-      .catch(() => undefined);
+    if (bodies !== this.bodies || this.available.length === 0) {
+      this.bodies = bodies;
+      this.available = charts(state);
+      this.select.replaceChildren(
+        ...this.available.map(({ key, label }) => h("option", { value: key }, label)),
+      );
+    }
+    // Somebody else may have chosen it: who presents, or a link.
+    this.chosen = this.session.plot;
+    const key = this.chart()?.key ?? "";
+    if (this.select.value !== key) this.select.value = key;
   }
 
   private draw(chart: Chart, samples: Samples): void {
@@ -372,13 +377,16 @@ export class PlotsTab implements Panel {
   }
 }
 
-/** What distinguishes a run from another: the numbers that were changed. */
-function runName(session: Session): string {
-  const { values, places } = session.numbers;
+/** What distinguishes a run from another: the numbers that were changed, and that this was on its way. */
+export function runName({
+  numbers: { values, places },
+  altered,
+}: Pick<Session, "numbers" | "altered">): string {
   const changed = [...Object.entries(values), ...Object.entries(places)].map(
     ([name, value]) => `${name} ${typeof value === "object" ? JSON.stringify(value) : String(value)}`,
   );
-  return changed.length > 0 ? changed.join(", ") : t("the scene as its author wrote it");
+  const name = changed.length > 0 ? changed.join(", ") : t("the scene as its author wrote it");
+  return altered ? t("{name}, changed on its way", { name }) : name;
 }
 
 /** A number with the digits that it has: those of a frame are in single precision. */

@@ -1,7 +1,7 @@
 // The reactions of every joint by the chosen convention, the joints that share redundant rows, one body cut free.
 
 import { api } from "../../api/client";
-import type { JointMultipliers, Reactions } from "../../api/types";
+import type { JointMultipliers, Reactions, SessionState } from "../../api/types";
 import { h, setText } from "../../core/dom";
 import { seconds } from "../../core/format";
 import { bind } from "../../core/keys";
@@ -21,6 +21,8 @@ import { givenUp } from "./wording";
 interface JointReactions {
   multipliers: JointMultipliers[];
   reactions: Reactions;
+  /** The state that was shown when they were asked for: it tells their errors. */
+  of?: SessionState;
 }
 
 export class ReactionsTab implements Panel {
@@ -72,8 +74,8 @@ export class ReactionsTab implements Panel {
     this.source = liveQuery(
       session,
       (run, at) => this.ask(run, at),
-      (value) => {
-        this.answer = value;
+      (value, of) => {
+        this.answer = { ...value, of };
         this.paint();
       },
       (error) => this.list.replaceChildren(problemNotice(error)),
@@ -156,7 +158,7 @@ export class ReactionsTab implements Panel {
     });
     setText(this.when, t("At {time}.", { time: seconds(this.answer?.reactions.time ?? state.time) }));
     this.worth.root.hidden = cards.length === 0;
-    this.worth.show(state);
+    this.worth.show(this.answer?.of ?? state);
     list.replaceChildren(...cards);
     if (cards.length === 0)
       list.replaceChildren(

@@ -179,6 +179,8 @@ export const inspector = {
   "Reset all": "Alles zurücksetzen",
   "All numbers stand as the author wrote them.": "Alle Zahlen stehen, wie der Autor sie geschrieben hat.",
   "As the author wrote it.": "Wie der Autor es geschrieben hat.",
+  "The numbers are the author’s; this run was changed on its way.":
+    "Die Zahlen sind die des Autors; dieser Lauf wurde unterwegs verändert.",
   "{numbers} changed.": "{numbers} geändert.",
   "No sliders here": "Hier gibt es keine Regler",
   "The author of this scene offers no parameters. Every number of it can be changed below.":
@@ -228,6 +230,7 @@ export const inspector = {
   "Drop the reference": "Den Vergleich weglassen",
   time: "Zeit",
   "the scene as its author wrote it": "die Szene, wie ihr Autor sie geschrieben hat",
+  "{name}, changed on its way": "{name}, unterwegs verändert",
   "Time, s": "Zeit, s",
   "Write a time in seconds, such as 1.5": "Schreibe eine Zeit in Sekunden, etwa 1.5",
   "The run goes from 0 to {duration} s: write a time within":
@@ -328,6 +331,8 @@ export const inspector = {
   "moments about the joint {error}": "Momente um das Gelenk {error}",
   "Estimated error at {time}, the largest of all: {errors}.":
     "Geschätzter Fehler bei {time}, der größte von allen: {errors}.",
+  "At {lost} nothing is known of their error: these numbers may be far off.":
+    "Bei {lost} ist von ihrem Fehler nichts bekannt: diese Zahlen können weit daneben liegen.",
   "From {lost} on nothing is known of the error: these numbers may be far off.":
     "Ab {lost} ist vom Fehler nichts bekannt: diese Zahlen können weit daneben liegen.",
   "From {lost} on nothing is known of the error: the curves may be far off there.":
@@ -339,6 +344,7 @@ export const inspector = {
   "What it promises": "Was sie verspricht",
   speed: "Betrag",
   "unknown from {lost}": "unbekannt ab {lost}",
+  "unknown here": "hier unbekannt",
   "Simulated time": "Simulierte Zeit",
   "Kinetic and potential energy together": "Kinetische und potentielle Energie zusammen",
   "Change of the energy since the start: it should stay near zero where nothing is lost":
@@ -384,8 +390,8 @@ export const inspector = {
   "Mark the extremes": "Extreme markieren",
   "{curve} {kind} {value} at {time}": "{curve} {kind} {value} bei {time}",
   "{curve} {kind} about {value} near {time}": "{curve} {kind} etwa {value} um {time}",
-  "≈ marks what is not unique: joints whose rows depend on each other may share their load in other ways too.":
-    "≈ markiert, was nicht eindeutig ist: Gelenke, deren Zeilen voneinander abhängen, können ihre Last auch anders teilen.",
+  "≈ marks what is not unique at the time that is shown: joints whose rows depend on each other may share their load in other ways too.":
+    "≈ markiert, was zur gezeigten Zeit nicht eindeutig ist: Gelenke, deren Zeilen voneinander abhängen, können ihre Last auch anders teilen.",
   "Discs mark what is known of the curves; a thin line only joins those that are far apart.":
     "Scheiben markieren, was von den Kurven bekannt ist; eine dünne Linie verbindet nur, was weit auseinanderliegt.",
   "{y} over {x}": "{y} über {x}",

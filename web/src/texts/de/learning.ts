@@ -144,6 +144,8 @@ export const learning = {
   Stabilization: "Stabilisierung",
   Right: "Richtig",
   "Not yet": "Noch nicht",
+  "This was said of your earlier answer: check again to have the new one judged.":
+    "Das galt deiner früheren Antwort: Prüf noch einmal, um die neue beurteilen zu lassen.",
   "No answer": "Keine Antwort",
   "This mistake is not one that we know. Go through your steps once more, or open a hint.":
     "Diesen Fehler kennen wir nicht. Geh deine Schritte noch einmal durch oder öffne einen Hinweis.",
@@ -171,6 +173,12 @@ export const learning = {
   "You look around on your own. The lecture goes on; come back whenever you like.":
     "Du siehst dich selbst um. Die Vorlesung geht weiter; komm zurück, wann du magst.",
   "You see what the presenter shows.": "Du siehst, was vorn gezeigt wird.",
+  "The picture shows the result of an analysis, not the run.":
+    "Das Bild zeigt das Ergebnis einer Analyse, nicht den Lauf.",
+  "The presenter looks at the result of an analysis. The picture here is that of the run.":
+    "Vorn wird das Ergebnis einer Analyse gezeigt. Das Bild hier ist das des Laufs.",
+  "Changed by the presenter: {numbers}.": "Vorn geändert: {numbers}.",
+  "{n} more | {n} more": "{n} weitere | {n} weitere",
   "Lecture: let others follow this run": "Vorlesung: andere diesem Lauf folgen lassen",
   "nobody follows yet": "noch folgt niemand",
   Reveal: "Auflösen",
@@ -414,6 +422,11 @@ export const learning = {
   "You predicted:": "Du hast vorhergesagt:",
   "You skipped the prediction.": "Du hast die Vorhersage ausgelassen.",
   "What happened:": "Was geschah:",
+  "What happened in the run that was asked about:": "Was in dem Lauf geschah, nach dem gefragt war:",
+  "This run is not the one that was asked about: run it from the start as its author wrote it.":
+    "Dieser Lauf ist nicht der, nach dem gefragt war: Lass ihn vom Anfang an laufen, wie ihn der Autor geschrieben hat.",
+  "This run is not the one that was asked about: set the numbers of the question and run it from the start.":
+    "Dieser Lauf ist nicht der, nach dem gefragt war: Stell die Zahlen der Frage ein, und lass ihn vom Anfang an laufen.",
   "Run it: at {seen_at} you will have seen it.": "Lass ihn laufen: Bei {seen_at} hast du es gesehen.",
   "Run it, and you will see.": "Lass ihn laufen, dann siehst du es.",
   "Write “{meant}” in place of “{given}”": "„{meant}“ statt „{given}“ schreiben",

@@ -3,6 +3,7 @@
 
 export const told: Record<string, string> = {
   // Titles of problems: their codes, read as words.
+  "No class": "Kein Kurs",
   "Scene syntax": "Der Text ist noch keine Szene",
   "Scene too large": "Die Szene ist zu groß",
   "Scene too long": "Der Text ist zu lang",
@@ -266,6 +267,9 @@ export const told: Record<string, string> = {
     "Frag nach einer späteren Zeit, oder setz den Lauf erst zurück.",
   'Ask for a time within the run: it ends after the "duration" in the scene\'s "simulation", or at an event that stops it.':
     "Frag nach einer Zeit innerhalb des Laufs: Er endet nach der „duration“ in „simulation“ der Szene oder bei einem Ereignis, das ihn anhält.",
+  "this server runs without accounts: its grades are for yourself":
+    "Dieser Server läuft ohne Konten: Seine Bewertungen sind für dich selbst",
+  "for a class start it with `triad serve --class`": "Für einen Kurs starte ihn mit „triad serve --class“",
   "Look at the last good state: let the driver ask for less, change lengths, or end the run before.":
     "Sieh dir den letzten guten Zustand an: Lass den Antrieb weniger verlangen, ändere Längen, oder beende den Lauf vorher.",
   "Loosen the tolerance, tenfold at first: the mechanism comes to a singular position, near which rounding is larger than this one allows. Else change lengths, or end the run before.":
