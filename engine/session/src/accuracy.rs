@@ -113,6 +113,11 @@ pub(crate) struct Since {
 }
 
 impl Since {
+    /// Whether its simulation has begun at the start of the run.
+    pub fn is_start(&self) -> bool {
+        self.taken_up.as_ref().is_none_or(|known| known.time <= 0.0)
+    }
+
     /// What is known where another simulation goes on with other numbers from the state of this one: what was not known of its errors is
     /// not known then either.
     pub fn change(&self, simulation: &Simulation, forces: bool) -> Self {

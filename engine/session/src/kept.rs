@@ -6,6 +6,7 @@ use triad_engine::scene::Scene;
 
 use crate::accuracy::Since;
 use crate::change::Drag;
+use crate::happened::Happened;
 use crate::state::SceneSource;
 
 /// A session at one moment, as it goes on later: its scene and the state of the run, not its recording.
@@ -24,6 +25,9 @@ pub struct KeptSession {
     /// What is known of its errors.
     #[serde(default)]
     pub(crate) since: Since,
+    /// What has happened.
+    #[serde(default)]
+    pub(crate) happened: Happened,
     /// The spring by which a body is dragged.
     #[serde(default)]
     pub(crate) drag: Option<Drag>,

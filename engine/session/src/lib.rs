@@ -15,6 +15,8 @@ mod accuracy;
 
 mod history;
 
+mod happened;
+
 mod state;
 
 mod kept;
@@ -27,6 +29,7 @@ pub mod requests;
 
 mod run;
 
+pub use happened::Happened;
 pub use kept::KeptSession;
 pub use run::{Run, Streamed};
 pub use state::{Drawing, Links, SceneSource, SessionBody, SessionMessage, SessionState};

@@ -9,6 +9,7 @@ use triad_engine::scene::{OutputTimes, Scene};
 use crate::accuracy::Since;
 use crate::change::{AfterChange, Drag, SceneChange, SessionScene, assembled};
 use crate::drawing::{Arrows, Camera};
+use crate::happened::Happened;
 use crate::history::{History, SAME_TIME, unknown};
 use crate::kept::KeptSession;
 use crate::picture::{Samples, describe};
@@ -46,6 +47,8 @@ pub struct Run {
     changes: u64,
     /// Since when its estimated errors count.
     since: Since,
+    /// What happened before its simulation was started, with other numbers.
+    happened: Happened,
     drag: Option<Drag>,
     simulation: Simulation,
     samples: Samples,
@@ -85,7 +88,19 @@ impl Run {
     ///
     /// Errors if its scene is refused by this program; none if the state is of another program.
     pub fn resume(kept: KeptSession, bytes: usize, now: f64) -> Result<Option<Self>, Refusal> {
-        let KeptSession { id, source, original, scene, changes, state, playing, speed, since, drag } = kept;
+        let KeptSession {
+            id,
+            source,
+            original,
+            scene,
+            changes,
+            state,
+            playing,
+            speed,
+            since,
+            happened,
+            drag,
+        } = kept;
         let mut simulation = assembled(&scene, drag.as_ref())?;
         if !simulation.resume(&state) {
             return Ok(None);
@@ -95,6 +110,7 @@ impl Run {
         Ok(Some(Self {
             changes,
             since,
+            happened,
             drag,
             play,
             speed,
@@ -123,6 +139,7 @@ impl Run {
             scene,
             changes: 0,
             since: Since::default(),
+            happened: Happened::default(),
             drag: None,
             simulation,
             samples,
@@ -145,6 +162,7 @@ impl Run {
             playing: self.play.is_some(),
             speed: self.speed,
             since: self.since.taken_up(&self.simulation, tells_forces(&self.simulation)),
+            happened: self.happened(),
             drag: self.drag.clone(),
         }
     }
@@ -188,6 +206,7 @@ impl Run {
         self.error = None;
         self.simulation.reset();
         self.since = Since::default();
+        self.happened = Happened::default();
         self.samples.restart();
         self.history.clear();
         self.record();
@@ -211,6 +230,7 @@ impl Run {
             AfterChange::Restart => self.error = None,
             AfterChange::Continue => self.transfer_state(&mut next)?,
         }
+        let happened = self.happened();
         let before = std::mem::replace(&mut self.simulation, next);
         self.scene = scene;
         self.drag = drag;
@@ -218,10 +238,12 @@ impl Run {
         match then {
             AfterChange::Restart => {
                 self.since = Since::default();
+                self.happened = Happened::default();
                 self.samples.restart_with(description);
                 self.history.clear();
             }
             AfterChange::Continue => {
+                self.happened = happened;
                 self.samples.follow(description);
                 self.since = self.since.change(&before, tells_forces(&before));
                 self.history.start_segment(before);
@@ -238,11 +260,18 @@ impl Run {
     pub fn drag(&mut self, drag: Option<Drag>, now: f64) -> Result<(), Refusal> {
         let mut next = assembled(&self.scene, drag.as_ref())?;
         self.transfer_state(&mut next)?;
+        self.happened = self.happened();
         self.since = self.since.change(&self.simulation, tells_forces(&self.simulation));
         self.history.start_segment(std::mem::replace(&mut self.simulation, next));
         self.drag = drag;
         self.run_on(now);
         Ok(())
+    }
+
+    /// What has happened since its start.
+    fn happened(&self) -> Happened {
+        let passed = self.simulation.singular_configurations();
+        self.happened.and(&self.simulation, &passed, self.since.is_start())
     }
 
     /// Lets another simulation go on from the state of the current one.
@@ -400,6 +429,7 @@ impl Run {
             changes: self.changes,
             drag: self.drag.clone(),
             since: self.since.clone(),
+            happened: self.happened.clone(),
             error: self.error.as_ref().map(|error| error.document(trace_id())),
         };
         SessionState::of(&self.simulation, facts)

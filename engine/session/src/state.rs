@@ -7,6 +7,7 @@ use triad_engine::run::Simulation;
 use crate::accuracy::{Accuracy, Since};
 use crate::change::Drag;
 use crate::drawing::{Arrows, Camera};
+use crate::happened::Happened;
 use crate::picture::Samples;
 use crate::refusal::ProblemDocument;
 
@@ -188,6 +189,9 @@ pub struct SessionState {
     pub changes: u64,
     /// The spring by which a body is dragged, while it is.
     pub pull: Option<Drag>,
+    /// What has happened so far.
+    #[serde(flatten)]
+    pub happened: Happened,
     /// What the engine found or corrected in the scene, and what speaks against the result so far.
     pub notes: Vec<String>,
     /// Why the simulation stopped before its end; the last good state is kept.
@@ -219,6 +223,8 @@ pub(crate) struct SessionFacts {
     pub drag: Option<Drag>,
     /// Since when errors count.
     pub since: Since,
+    /// What happened before the simulation was started, with other numbers.
+    pub happened: Happened,
     pub error: Option<ProblemDocument>,
 }
 
@@ -230,6 +236,7 @@ impl SessionState {
         let accelerations = simulation.mass_accelerations();
         let known = facts.since.known(simulation, &summary, tells_forces(simulation));
         let notes = [known.notes.as_slice(), &facts.since.notes(&known)].concat();
+        let happened = facts.happened.and(simulation, &summary.singularities, facts.since.is_start());
         let poses = frame.bodies.iter().zip(&accelerations);
         let bodies =
             simulation.model().bodies.iter().zip(poses).map(|(body, (pose, &acceleration))| SessionBody {
@@ -272,6 +279,7 @@ impl SessionState {
             drawing: facts.drawing,
             changes: facts.changes,
             pull: facts.drag,
+            happened,
             notes,
             error: facts.error,
             bodies: bodies.collect(),

@@ -4,6 +4,7 @@ use super::reading::{self, Reading};
 use crate::answers::Answer;
 use crate::answers::tolerance::{ValueShape, distance, norm};
 use crate::exercise::{Misconception, QuantityQuestion};
+use crate::recognition::digits;
 use crate::recognition::quantity::{recognise, with_one_more_slip};
 use crate::verdict::feedback::{Feedback, Judgement, NumberFinding, QuantityFeedback, UnitFinding};
 use crate::verdict::invalid::InvalidQuantity;
@@ -34,9 +35,12 @@ pub(crate) fn judge(
         None if question.asks_unit => UnitFinding::Found,
         None => UnitFinding::Given,
     };
+    let rounding: Vec<f64> = roundings(&reading).collect();
+    let tells = !is_short(question, &reading) || digits::tell_apart(question, values, &rounding);
+    let stands = tells || digits::is_misconception(question, values);
     let (misconception, number) = if right {
         (Some("unit"), NumberFinding::Right)
-    } else if let Some((id, finding)) = misconception(question, values) {
+    } else if let Some((id, finding)) = misconception(question, values).filter(|_| stands) {
         (Some(id), finding)
     } else if is_too_coarse(question, &reading) {
         let digits = question.tolerance.digits();
@@ -44,6 +48,12 @@ pub(crate) fn judge(
             return Err(InvalidQuantity::InsufficientPrecision { digits });
         }
         (None, NumberFinding::TooCoarse { digits })
+    } else if !tells {
+        // What went wrong cannot be told from these digits, if they do not stand for themselves.
+        match digits::usual(question, values, &rounding) {
+            Some(usual) => (Some(usual.mistake.code), NumberFinding::Usual(usual)),
+            None => (None, NumberFinding::TooCoarse { digits: question.tolerance.digits() }),
+        }
     } else if let Some((id, finding)) = turned(question, values) {
         (Some(id), finding)
     } else if let Some(usual) = recognise(question, values, &reading.rounding) {

@@ -8,6 +8,8 @@ const CLOSER: f64 = 0.5;
 const LEAST: f64 = 1e-3;
 /// Most relative width that digits left out may bring: a whole number for a component is seldom a rounded one.
 const MOST_ROUNDED: f64 = 0.02;
+/// Relative difference of numbers that are the same.
+pub(super) const EXACT: f64 = 1e-9;
 /// An answer that is off by no more than so many tolerances is close.
 const NEAR: f64 = 3.0;
 
@@ -28,11 +30,16 @@ impl<'a> Fit<'a> {
     ) -> Self {
         let size = norm(values);
         let width = if tolerance.is_exact() {
-            1e-9 * size
+            EXACT * size
         } else {
             norm(rounding).min(MOST_ROUNDED * size) + (CLOSER * tolerance.allowed(size)).max(LEAST * size)
         };
         Self { values, reference, tolerance, width }
+    }
+
+    /// The same for values that stand for themselves: they meet a wrong one to the last digit.
+    pub(super) fn exactly(values: &'a [f64], reference: &'a [f64], tolerance: Tolerance) -> Self {
+        Self { values, reference, tolerance, width: EXACT * norm(values) }
     }
 
     /// Whether the answer is this wrong one.

@@ -11,5 +11,7 @@ mod mutation;
 pub(crate) mod quantity;
 mod values;
 
+pub(crate) mod digits;
+
 #[cfg(test)]
 pub(crate) use mutation::slips;

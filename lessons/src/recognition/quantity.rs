@@ -47,29 +47,36 @@ pub(crate) fn with_one_more_slip(
 
 /// The usual mistake that leads to these values, if there is one. `rounding` is what the digits may have changed.
 pub(crate) fn recognise(question: &QuantityQuestion, typed: &[f64], rounding: &[f64]) -> Option<Recognised> {
-    let fit = Fit::new(typed, rounding, &question.reference, question.tolerance);
+    recognise_by(question, typed, &Fit::new(typed, rounding, &question.reference, question.tolerance))
+}
+
+/// The same for values that meet a wrong one to the last digit.
+pub(super) fn recognise_exactly(question: &QuantityQuestion, typed: &[f64]) -> Option<Recognised> {
+    recognise_by(question, typed, &Fit::exactly(typed, &question.reference, question.tolerance))
+}
+
+fn recognise_by(question: &QuantityQuestion, typed: &[f64], fit: &Fit) -> Option<Recognised> {
     if question.tolerance.is_exact() && typed.iter().any(|x| x.fract() != 0.0) && whole(&question.reference) {
         return Some(Recognised::plainly(mistakes::NO_WHOLE_NUMBER));
     }
     if is_count(question) {
-        return Some(Recognised::plainly(miscount(question, &fit)));
+        return Some(Recognised::plainly(miscount(question, fit)));
     }
-    let certain = values::certain(&fit, question.shape, question.size[1]);
-    if let Some(mistake) = certain.or_else(|| wrong_model(question, &fit)) {
+    let certain = values::certain(fit, question.shape, question.size[1]);
+    if let Some(mistake) = certain.or_else(|| wrong_model(question, fit)) {
         return Some(Recognised::plainly(mistake));
     }
-    if let Some(mistake) = one_slip(question, &fit, |_| true).or_else(|| values::factor(&fit, question.shape))
-    {
+    if let Some(mistake) = one_slip(question, fit, |_| true).or_else(|| values::factor(fit, question.shape)) {
         return Some(Recognised::plainly(mistake));
     }
-    if let Some(mistake) = given(question, &fit) {
+    if let Some(mistake) = given(question, fit) {
         return Some(Recognised::plainly(mistake));
     }
     let opposite: Vec<f64> = typed.iter().map(|x| -x).collect();
     if let Some(mistake) = one_slip(question, &fit.with(&opposite), |_| true) {
         return Some(Recognised { mistake, and_sign: true });
     }
-    values::vague(&fit, question.shape).map(Recognised::plainly)
+    values::vague(fit, question.shape).map(Recognised::plainly)
 }
 
 fn whole(values: &[f64]) -> bool {

@@ -64,3 +64,36 @@ fn where_verdicts_are_held_back_few_digits_are_wrong_and_an_attempt() {
     let unreadable = verdict(&held, &[("pull", "4e1"), ("speed", "abc")]);
     assert!(!unreadable.gradable && of(&unreadable, "pull").0 == Mark::Waiting);
 }
+
+/// A usual mistake is named only if no other number that may have been rounded to these digits comes from another one, or is near.
+#[test]
+fn of_few_digits_no_mistake_is_read_that_more_would_not_show() {
+    // A rod of 0.98 m: 2.344 s, and four digits are asked for.
+    let lesson = course().lesson("simple-pendulum").unwrap().variant("Ada").unwrap();
+    let told = |text: &str| {
+        let told = verdict(&lesson, &[("period", text)]);
+        let question = told.questions.into_iter().find(|question| question.id == "period").unwrap();
+        assert_eq!((question.verdict, told.gradable), (Mark::Wrong, true), "{text}");
+        (question.misconception, question.message_html)
+    };
+    for short in ["2.2", "2.7", "2.5", "2", "3"] {
+        let (named, message) = told(short);
+        assert_eq!(named, None, "{short}: {message}");
+        assert!(
+            message.contains("so few digits") && message.contains("give at least 4 significant digits"),
+            "{message}"
+        );
+    }
+    // The same numbers with all digits are none of these mistakes.
+    for whole in ["2.200", "2.500"] {
+        assert_eq!(told(whole).0, None, "{whole}");
+    }
+    // A number of the question, or of the author, stands for itself.
+    assert_eq!(told("9.81").0.as_deref(), Some("given-number"));
+    // What more digits say is named, with three as well where it is the only one.
+    for (text, code) in
+        [("4.688", "factor-two"), ("4.69", "factor-two"), ("1.986", "small-swing"), ("1.172", "half-period")]
+    {
+        assert_eq!(told(text).0.as_deref(), Some(code), "{text}");
+    }
+}

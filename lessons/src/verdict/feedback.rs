@@ -194,7 +194,7 @@ pub(crate) enum NumberFinding {
     Direction {
         frame: Option<String>,
     },
-    /// Wrong by no more than the rounding of its digits, where more could not be asked for.
+    /// Wrong by no more than the rounding of its digits, where more could not be asked for; or wrong, and of too few to tell why.
     TooCoarse {
         digits: Option<u32>,
     },

@@ -76,6 +76,47 @@ async fn time_runs_while_a_session_plays_and_stands_when_it_is_paused() {
 }
 
 #[tokio::test]
+async fn a_session_tells_its_events_and_the_singular_positions_that_it_passes() {
+    let server = server();
+    let mut scene = get(&server, "/api/v1/scenes/simple-pendulum").await.json();
+    let angle = json!({"type": "angle", "joint": "pin"});
+    scene["events"] = json!([
+        {"name": "lowest", "of": angle, "value": std::f64::consts::FRAC_PI_2},
+        {"name": "halt", "of": angle, "value": 2.5, "stop": true},
+    ]);
+    let path = start(&server, json!({"scene": scene})).await;
+    let none = |state: &Value| {
+        assert_eq!((&state["events"], &state["passages"]), (&json!([]), &json!([])), "{state}");
+        assert_eq!((&state["earlier_events"], &state["earlier_passages"]), (&json!(0), &json!(0)));
+    };
+    none(&get(&server, &path).await.json());
+    let lowest = post(&server, &format!("{path}/step"), json!({"seconds": 0.7})).await.json();
+    assert_eq!(
+        (&lowest["events"][0]["name"], &lowest["events"][0]["stop"]),
+        (&json!("lowest"), &json!(false))
+    );
+    close(&lowest["events"][0]["time"], 0.591_960, 1e-6);
+    assert!(lowest["events"][0]["error"].as_f64().is_some_and(|error| error < 1e-5), "{lowest}");
+    let heavier = json!({"places": {"/bodies/0/mass": 2.0}, "then": "continue"});
+    let changed = post(&server, &format!("{path}/parameters"), heavier).await.json();
+    assert_eq!(changed["events"], lowest["events"], "earlier ones stay");
+    let end = post(&server, &format!("{path}/step"), json!({"seconds": 100})).await.json();
+    assert_eq!((&end["events"][0], &end["events"][1]["name"]), (&lowest["events"][0], &json!("halt")));
+    assert_eq!((&end["events"][1]["stop"], &end["finished"]), (&json!(true), &json!(true)));
+    assert_eq!((&end["events"][1]["time"], end["events"].as_array().map(Vec::len)), (&end["time"], Some(2)));
+    none(&post(&server, &format!("{path}/reset"), "").await.json());
+
+    let path = start(&server, json!({"builtin": "n-four-bar:2"})).await;
+    let passed = post(&server, &format!("{path}/step"), json!({"seconds": 1})).await.json();
+    let first = &passed["passages"][0];
+    assert!(first["time"].as_f64().is_some_and(|time| (0.0..1.0).contains(&time)), "{passed}");
+    assert!(first["joints"].as_array().is_some_and(|joints| joints.len() > 2), "{passed}");
+    assert_eq!(first.as_object().map(serde_json::Map::len), Some(2), "as `triad run` tells them");
+    assert_eq!(passed["events"], json!([]));
+    none(&post(&server, &format!("{path}/reset"), "").await.json());
+}
+
+#[tokio::test]
 async fn the_jacobian_and_the_multipliers_have_names() {
     let server = server();
     let path = start(&server, json!({"builtin": "simple-pendulum"})).await;

@@ -4024,6 +4024,16 @@ export interface components {
              */
             duration: number;
             /**
+             * Format: uint64
+             * @description How many earlier events are left out.
+             */
+            earlier_events: number;
+            /**
+             * Format: uint64
+             * @description How many earlier passages are left out.
+             */
+            earlier_passages: number;
+            /**
              * Format: double
              * @description Energy, J.
              */
@@ -4045,6 +4055,11 @@ export interface components {
              * @description Evaluations of the equations of motion.
              */
             evaluations: number;
+            /**
+             * @description The latest events so far, in the order of time: at most 32. The error of their times is known up to the first change of numbers in
+             *     mid-run.
+             */
+            events: components["schemas"]["EventOccurrence"][];
             /**
              * Format: uint64
              * @description Factorizations of a matrix.
@@ -4076,6 +4091,8 @@ export interface components {
             links: components["schemas"]["Links"];
             /** @description What the engine found or corrected in the scene, and what speaks against the result so far. */
             notes: string[];
+            /** @description The latest singular configurations passed so far, in the order of time: at most 32, and fewer where many joints take part. */
+            passages: components["schemas"]["SingularConfiguration"][];
             /** @description Whether time runs. */
             playing: boolean;
             /**

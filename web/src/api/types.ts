@@ -15,6 +15,7 @@ export type ClassWords = Schemas["ClassWords"];
 export type CheckReport = Schemas["CheckReport"];
 export type Drag = Schemas["Drag"];
 export type Drawing = Schemas["Drawing"];
+export type EventOccurrence = Schemas["EventOccurrence"];
 export type GradedSubmission = Schemas["GradedSubmission"];
 export type SubmissionState = Schemas["SubmissionState"];
 export type Jacobian = Schemas["Jacobian"];

@@ -10,6 +10,7 @@ import type { Session } from "../session/session";
 import type { Panel } from "../ui/panel";
 import { liveTable } from "../ui/table";
 import { meaning, within } from "./accuracy";
+import { HappenedList } from "./happened";
 
 /** Coordinates that are shown until all are wanted. */
 const FIRST_ROWS = 48;
@@ -123,6 +124,7 @@ export class StateTab implements Panel {
   });
   /** That the picture shows another moment. */
   private readonly when = h("p", { class: "when", role: "note", hidden: true });
+  private readonly happened: HappenedList;
   private limit = FIRST_ROWS;
   /** Names of the coordinates. */
   private names: string[] | undefined;
@@ -130,11 +132,13 @@ export class StateTab implements Panel {
   private requestedFor = "";
 
   constructor(private readonly session: Session) {
+    this.happened = new HappenedList(session);
     const figures = h("dl", { class: "figures" }, ...this.figures.map((item) => item.root));
     this.root = h(
       "div",
       { class: "stack" },
       this.when,
+      this.happened.root,
       figures,
       meaning(),
       this.notes,
@@ -146,6 +150,7 @@ export class StateTab implements Panel {
   refresh(): void {
     const state = this.session.shown;
     if (!state) return;
+    this.happened.refresh();
     if (this.requestedFor !== state.id && this.names?.length !== state.q.length) this.requestNames(state);
     FIGURES.forEach(({ of }, k) => {
       const found = this.figures[k];

@@ -28,7 +28,7 @@ export function changedTold(view: SessionScene | undefined): string {
   const changed = view ? changedNumbers(view) : [];
   if (changed.length === 0) return "";
   const more = changed.length - MOST;
-  const named = more > 0 ? [...changed.slice(0, MOST), t("{n} more | {n} more", { n: more })] : changed;
+  const named = more > 0 ? [...changed.slice(0, MOST), t("{n} further | {n} further", { n: more })] : changed;
   return t("Changed by the presenter: {numbers}.", { numbers: listed(named) });
 }
 

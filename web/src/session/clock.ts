@@ -7,6 +7,7 @@ import { t } from "../core/texts";
 import type { Pose } from "../mechanics/pose";
 import { Emitter, type Traced } from "./events";
 import type { Ghost } from "./ghost";
+import { endedBy } from "./happened";
 import { History } from "./history";
 import { type Mark, onward } from "./slow";
 import { Track } from "./track";
@@ -196,7 +197,9 @@ export class Clock extends Emitter {
   protected announceState(): void {
     const state = this.shown;
     if (!state) return;
-    const lead = state.finished ? t("The run is complete") : t("Paused");
+    const ended = endedBy(state);
+    const complete = ended ? t("“{name}” ended the run", { name: ended.name }) : t("The run is complete");
+    const lead = state.finished ? complete : t("Paused");
     const body = state.bodies[0];
     const where = body
       ? ` ${t("{name} at {position} metres.", { name: body.name, position: body.position.map((x) => num(x, 3)).join(", ") })}`

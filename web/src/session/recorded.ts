@@ -68,6 +68,10 @@ function frameOf(motion: Motion, camera: Camera): SessionState {
     watchers: 0,
     changes: 0,
     pull: null,
+    events: [],
+    earlier_events: 0,
+    passages: [],
+    earlier_passages: 0,
     notes: [],
     gravity: (scene.gravity ?? NOWHERE) as Vec3,
     drawing: {

@@ -11,6 +11,7 @@ import { banner } from "../ui/notice";
 import { Clock } from "./clock";
 import { Connection } from "./connection";
 import type { Drawn, ReactionConvention } from "./events";
+import { shareLists } from "./happened";
 import { type Kind, Presses } from "./presses";
 
 export class Session extends Clock {
@@ -432,6 +433,7 @@ export class Session extends Clock {
       this.toNewest();
       this.altered = false;
     }
+    shareLists(before, state);
     this.latest = state;
     this.past.add(state);
     if (`${state.id}@${state.changes}@${state.title}` !== this.seenChanges && !this.presses.busy)

@@ -5,8 +5,10 @@ import { h, setText } from "../core/dom";
 import { fixedPlain, seconds, typedIn, unclearComma } from "../core/format";
 import { bind } from "../core/keys";
 import { t } from "../core/texts";
+import { endedBy } from "../session/happened";
 import type { Session } from "../session/session";
 import { type IconName, icon } from "../ui/icons";
+import type { HappenedMarks } from "./happened-marks";
 
 /** Simulated seconds by second of the wall clock. */
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
@@ -90,6 +92,7 @@ export class Transport {
     private readonly session: Session,
     plannedDuration: number | undefined,
     more: HTMLElement,
+    private readonly happened: HappenedMarks,
   ) {
     this.timeline = h("input", {
       type: "range",
@@ -133,7 +136,7 @@ export class Transport {
       h(
         "div",
         { class: "timeline-row" },
-        h("span", { class: "timeline-box" }, this.timeline, this.ticks),
+        h("span", { class: "timeline-box" }, this.timeline, this.ticks, this.happened.marks),
         this.loop,
         more,
       ),
@@ -164,6 +167,7 @@ export class Transport {
         ),
         h("div", { class: "transport-group speed" }, this.speed),
       ),
+      this.happened.line,
     );
   }
 
@@ -196,6 +200,8 @@ export class Transport {
   private wrongTime(time: number): string | undefined {
     if (!Number.isFinite(time))
       return unclearComma(this.clock.value) ?? t("Write a time in seconds, such as 1.5");
+    const ended = endedBy(this.session.latest);
+    if (ended && time > ended.time) return t("{sentence}: write a time before", { sentence: ended.sentence });
     const duration = this.session.latest?.duration ?? Infinity;
     if (time >= 0 && time <= duration) return undefined;
     return t("The run goes from 0 to {duration} s: write a time within", { duration: shortest(duration) });
@@ -318,6 +324,7 @@ function shortest(duration: number): number {
 
 function modeOf(state: SessionState): string {
   if (state.error) return t("stopped");
+  if (endedBy(state)) return t("ended");
   if (state.finished) return t("complete");
   return state.playing ? t("running") : t("paused");
 }

@@ -14,6 +14,7 @@ import { takeAlongButton } from "../share/dialog";
 import { motionOf } from "../share/motion";
 import { Stage } from "../stage/stage";
 import { type Action, acting } from "./acting";
+import { HappenedMarks } from "./happened-marks";
 import { placeMenu } from "./place-menu";
 import { trouble } from "./run-problems";
 import { sharing } from "./sharing";
@@ -98,7 +99,11 @@ export function mountWorkbench(
     takeAlongButton({ session, drawing: picture.drawing, scene: options.scene }),
     picture.toggle,
   );
-  const controls = new Transport(session, options.scene?.simulation?.duration, more);
+  const happened = new HappenedMarks(session, () => {
+    details.select("state");
+    details.root.querySelector<HTMLElement>(".happened-go")?.focus();
+  });
+  const controls = new Transport(session, options.scene?.simulation?.duration, more, happened);
   const waits = (): void => {
     details.root.hidden = session.held;
   };

@@ -9,7 +9,7 @@
 use super::Simulation;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use triad_dynamics::state::{BodyFrame, State};
 use triad_dynamics::system::event::EventFunction;
@@ -26,7 +26,7 @@ const AT_ONCE: f64 = 4.0 * f64::EPSILON;
 const MAX_ITERATIONS: u32 = 80;
 
 /// An event that has happened.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EventOccurrence {
     /// Name of the event.
     pub name: String,

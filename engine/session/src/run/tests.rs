@@ -1,6 +1,8 @@
 use super::*;
 use triad_engine::catalogue;
 
+mod happened;
+
 fn pendulum() -> Run {
     let scene = catalogue::scene("simple-pendulum").expect("a scene");
     let source = SceneSource::Builtin("simple-pendulum".into());

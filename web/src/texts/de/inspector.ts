@@ -387,6 +387,9 @@ export const inspector = {
   minimum: "Minimum",
   "Marks on the time line where these curves are largest and smallest and where they turn; a replay goes slowly there":
     "Markiert auf der Zeitleiste, wo diese Kurven am größten und am kleinsten sind und wo sie umkehren; eine Wiederholung geht dort langsam",
+  "What happened": "Was geschah",
+  "{n} earlier one is not told. | {n} earlier ones are not told.":
+    "{n} früheres wird nicht genannt. | {n} frühere werden nicht genannt.",
   "Mark the extremes": "Extreme markieren",
   "{curve} {kind} {value} at {time}": "{curve} {kind} {value} bei {time}",
   "{curve} {kind} about {value} near {time}": "{curve} {kind} etwa {value} um {time}",

@@ -178,7 +178,7 @@ export const learning = {
   "The presenter looks at the result of an analysis. The picture here is that of the run.":
     "Vorn wird das Ergebnis einer Analyse gezeigt. Das Bild hier ist das des Laufs.",
   "Changed by the presenter: {numbers}.": "Vorn geändert: {numbers}.",
-  "{n} more | {n} more": "{n} weitere | {n} weitere",
+  "{n} further | {n} further": "{n} weitere | {n} weitere",
   "Lecture: let others follow this run": "Vorlesung: andere diesem Lauf folgen lassen",
   "nobody follows yet": "noch folgt niemand",
   Reveal: "Auflösen",

@@ -2,7 +2,7 @@
 
 use crate::system::System;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Number of configurations for which memory is allocated at the start.
@@ -13,7 +13,7 @@ const MAX_CONFIGURATIONS: usize = 1000;
 const SAME_TIME: f64 = 1e-6;
 
 /// A singular configuration that a run passed.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SingularConfiguration {
     /// When, s.
     pub time: f64,
